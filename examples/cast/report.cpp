@@ -1,0 +1,59 @@
+// See report.h.
+#include "cast/report.h"
+
+#include <cmath>
+#include <string>
+
+#include "cast/numbers.h"
+
+namespace {
+
+/// "1 face", "2 faces"
+std::string counted(std::uint64_t count, const std::string& one, const std::string& many = "") {
+    return grouped(count) + " " + (count == 1 ? one : many.empty() ? one + "s" : many);
+}
+
+std::string per(double amount, std::size_t count) {
+    if (count == 0) return "-";
+    const double each = amount / static_cast<double>(count);
+    return each < 100 ? rounded(each, 3) : grouped(static_cast<std::uint64_t>(std::llround(each)));
+}
+
+void write_mesh(std::ostream& out, const Report& report) {
+    const auto& mesh = report.mesh;
+    out << "mesh      " << counted(report.faces, "face");
+    if (mesh.triangles != report.faces) out << " cut into " << counted(mesh.triangles, "triangle");
+    out << ", of them " << grouped(mesh.degenerate) << " of zero area and " << counted(mesh.duplicates, "duplicate")
+        << "; " << counted(mesh.vertices, "vertex", "vertices") << '\n';
+    out << "grid      " << mesh.grid_cells[0] << " x " << mesh.grid_cells[1] << " x " << mesh.grid_cells[2]
+        << " cells, " << per(static_cast<double>(mesh.grid_references), mesh.triangles) << " references and "
+        << per(static_cast<double>(mesh.bytes), mesh.triangles) << " bytes a triangle\n";
+}
+
+void write_queries(std::ostream& out, const Report& report, const Options& options) {
+    const auto& counters = report.counters;
+    out << "segments  " << counted(report.segments, "segment") << ": " << grouped(report.segments_hit) << " hit, "
+        << grouped(report.segments - report.segments_hit) << " missed";
+    if (options.question == Question::all) out << ", " << counted(report.hits, "hit") << " in all";
+    if (report.mesh.invalid_queries > 0) out << "; " << grouped(report.mesh.invalid_queries) << " not finite";
+    out << "\nwork      " << per(static_cast<double>(counters.cells), report.segments) << " cells and "
+        << per(static_cast<double>(counters.triangles), report.segments) << " triangles a segment; "
+        << counted(counters.exact_decisions, "exact decision") << ", " << counted(counters.exact_orders, "exact order")
+        << ", " << counted(counters.retreats, "point") << " moved back\n";
+}
+
+}  // namespace
+
+void write_report(std::ostream& out, const Report& report, const Options& options) {
+    write_mesh(out, report);
+    write_queries(out, report, options);
+    out << "time      read " << duration(report.read_time) << ", built in " << duration(report.build_time)
+        << ", cast in " << duration(report.cast_time) << " (" << per(report.cast_time * 1e9, report.segments)
+        << " ns a segment, one thread)\n";
+    if (options.picture) {
+        const auto& picture = *options.picture;
+        out << "picture   " << picture.file.string() << ": " << picture.width << " x " << picture.height << " pixels, "
+            << counted(static_cast<std::uint64_t>(picture.samples * picture.samples), "sample") << " each, in "
+            << duration(report.draw_time) << " (" << counted(picture.threads, "thread") << ")\n";
+    }
+}

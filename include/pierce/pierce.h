@@ -1,0 +1,17 @@
+// pierce: where does a moving point, or a segment, first pass through a triangle mesh? Exactly, and fast.
+//
+//   auto soup = pierce::read_mesh<double>("level.obj");        // or a MeshView of your own arrays
+//   pierce::CollisionMesh<double> level(soup.view());          // built once; shared by threads
+//   if (auto hit = level.first_hit({from, to}))                 // from, to: Eigen::Vector3d
+//       particle = hit->point;                                  // safe to stand on, safe to step from
+//
+// Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, collision_mesh.h.
+// <pierce/openmesh.h> adds OpenMesh meshes.
+#pragma once
+
+#include <pierce/collision_mesh.h>
+#include <pierce/hit.h>
+#include <pierce/mesh_view.h>
+#include <pierce/options.h>
+#include <pierce/triangle_soup.h>
+#include <pierce/types.h>

@@ -1,0 +1,22 @@
+// Where along a segment its hits lie: exact order, exact limits, and the values that are reported.
+#pragma once
+
+#include <point.h>
+
+namespace pierce::detail {
+
+/// The order of two hits of the same path: < 0 where the first comes before the second, 0 where their fractions are equal.
+/// Both triangles must be hit by the path.
+[[nodiscard]] int compare_fractions(const Path& path, const Corners& first, const Corners& second);
+
+/// Whether the exact fraction of a hit is at most `limit`. NaN: no.
+[[nodiscard]] bool fraction_at_most(const Path& path, const Corners& corners, double limit);
+
+/// Fraction and barycentric weights of a hit, each within (1/2 + 2^-8) ulp of the true value.
+struct Measures {
+    double fraction;
+    Point barycentric;
+};
+[[nodiscard]] Measures measure(const Path& path, const Corners& corners);
+
+}  // namespace pierce::detail

@@ -1,0 +1,37 @@
+// A triangle that is certainly hit, and the order of two of them.
+#pragma once
+
+#include <exact/decide.h>
+#include <exact/fraction.h>
+#include <query/scene.h>
+
+namespace pierce::detail {
+
+struct Candidate {
+    std::uint32_t triangle = 0;
+    Decision decision;
+    /// An interval that contains the exact fraction.
+    double earliest = 0;
+    double latest = 1;
+};
+
+/// The interval around a fraction that was rounded once from its exact value: within 1 ulp, or two steps where it is denormal.
+[[nodiscard]] inline Candidate exact_candidate(std::uint32_t triangle, const Decision& decision, double fraction) {
+    const double slack = fraction * 0x1p-52 + 0x1p-1072;
+    return {triangle, decision, fraction - slack, fraction + slack};
+}
+
+/// Whether x comes before y: by the exact fraction, then the caller's face number, then the triangle.
+[[nodiscard]] inline bool comes_before(const Scene& scene, const Path& path, const Candidate& x, const Candidate& y,
+                                       QueryCounters& counters) {
+    if (x.latest < y.earliest) return true;
+    if (y.latest < x.earliest || x.triangle == y.triangle) return false;
+    ++counters.exact_orders;
+    const int order = compare_fractions(path, scene.corners(x.triangle), scene.corners(y.triangle));
+    if (order != 0) return order < 0;
+    const std::uint32_t face_x = scene.face_of(x.triangle);
+    const std::uint32_t face_y = scene.face_of(y.triangle);
+    return face_x != face_y ? face_x < face_y : x.triangle < y.triangle;
+}
+
+}  // namespace pierce::detail

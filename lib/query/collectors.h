@@ -1,0 +1,112 @@
+// What a query wants of the hits that the traversal finds: the first, any, or all.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include <pierce/hit.h>
+#include <query/candidate.h>
+#include <grid/walk.h>
+
+namespace pierce::detail {
+
+/// Keeps the hit that comes before all others.
+class First {
+  public:
+    First(const Scene& scene, const Path& path, QueryCounters& counters)
+        : scene_(scene), path_(path), counters_(counters) {}
+
+    [[nodiscard]] double limit() const { return best_.latest; }
+    void add(const Candidate& candidate, const Visit&) {
+        if (found_ && !comes_before(scene_, path_, candidate, best_, counters_)) return;
+        best_ = candidate;
+        found_ = true;
+    }
+    [[nodiscard]] bool found() const { return found_; }
+    [[nodiscard]] const Candidate& best() const { return best_; }
+
+  private:
+    const Scene& scene_;
+    const Path& path_;
+    QueryCounters& counters_;
+    Candidate best_;
+    bool found_ = false;
+};
+
+/// Stops at any hit, but for those of the triangle of `own` and of the triangles in `passed`.
+template <class Scalar>
+class Any {
+  public:
+    Any() = default;
+    Any(const Hit<Scalar>& own, std::span<const Hit<Scalar>> passed) : own_(&own), passed_(passed) {}
+
+    [[nodiscard]] double limit() const { return found_ ? -1 : 1; }
+    void add(const Candidate& candidate, const Visit&) {
+        if (own_ != nullptr && candidate.triangle == own_->triangle) return;
+        for (const Hit<Scalar>& hit : passed_)
+            if (hit.triangle == candidate.triangle) return;
+        found_ = true;
+    }
+    [[nodiscard]] bool found() const { return found_; }
+
+  private:
+    const Hit<Scalar>* own_ = nullptr;
+    std::span<const Hit<Scalar>> passed_;
+    bool found_ = false;
+};
+
+/// Counts every hit once and keeps the first ones, in order, in `out`. Of those it fills what it needs itself: triangle, feature, side,
+/// at_start and exact_fraction.
+template <class Scalar>
+class All {
+  public:
+    All(const Scene& scene, const Path& path, std::span<Hit<Scalar>> out, QueryCounters& counters)
+        : scene_(scene), path_(path), out_(out), counters_(counters) {}
+
+    [[nodiscard]] double limit() const { return 1; }
+    void add(const Candidate& candidate, const Visit& visit) {
+        const Corners corners = scene_.corners(candidate.triangle);
+        if (!visit.first_with(scene_.grid.shape().range(box_of(corners)))) return;
+        ++total_;
+        // Insertion from the end: hits come roughly in order.
+        std::size_t place = kept_;
+        while (place > 0 && comes_before(scene_, path_, candidate, kept(place - 1), counters_)) --place;
+        if (place == out_.size()) return;
+        if (kept_ < out_.size()) ++kept_;
+        std::move_backward(out_.begin() + static_cast<std::ptrdiff_t>(place),
+                           out_.begin() + static_cast<std::ptrdiff_t>(kept_ - 1),
+                           out_.begin() + static_cast<std::ptrdiff_t>(kept_));
+        Hit<Scalar>& hit = out_[place];
+        hit.triangle = candidate.triangle;
+        hit.side = candidate.decision.side;
+        hit.feature = candidate.decision.feature;
+        hit.feature_index = candidate.decision.feature_index;
+        hit.at_start = candidate.decision.at_start;
+        hit.exact_fraction = static_cast<Scalar>(measure(path_, corners).fraction);
+    }
+    [[nodiscard]] std::size_t total() const { return total_; }
+    [[nodiscard]] std::size_t kept_count() const { return kept_; }
+
+    /// A kept hit as a candidate again: its fraction was rounded to `Scalar` on top.
+    [[nodiscard]] Candidate kept(std::size_t i) const {
+        const Hit<Scalar>& hit = out_[i];
+        const auto fraction = static_cast<double>(hit.exact_fraction);
+        const double slack = fraction * static_cast<double>(std::numeric_limits<Scalar>::epsilon()) * 2 +
+                             static_cast<double>(std::numeric_limits<Scalar>::denorm_min()) * 4;
+        return {hit.triangle,
+                {.hit = true, .side = hit.side, .feature = hit.feature, .feature_index = hit.feature_index,
+                 .at_start = hit.at_start},
+                fraction - slack,
+                fraction + slack};
+    }
+
+  private:
+    const Scene& scene_;
+    const Path& path_;
+    std::span<Hit<Scalar>> out_;
+    QueryCounters& counters_;
+    std::size_t total_ = 0;
+    std::size_t kept_ = 0;
+};
+
+}  // namespace pierce::detail

@@ -1,0 +1,75 @@
+// The grid, the filter and the order of work change no bit of an answer: CollisionMesh against its naive twin.
+#include <gtest/gtest.h>
+#include <pierce/collision_mesh.h>
+#include <support/expect_hit.h>
+#include <support/meshes.h>
+#include <support/naive.h>
+#include <support/segments.h>
+
+namespace pierce::test {
+namespace {
+
+template <class Scalar>
+void compare(const std::string& name, const TriangleSoup<Scalar>& soup, int count, std::uint64_t seed,
+             const BuildOptions& build = {}) {
+    SCOPED_TRACE(name);
+    const CollisionMesh<Scalar> mesh(soup.view(), build);
+    const NaiveMesh<Scalar> naive(soup.view());
+    const Extent<Scalar> extent(soup.view());
+    Random random(seed);
+    int hits = 0;
+    std::array<Hit<Scalar>, 4> some;
+    std::array<Hit<Scalar>, 4> expected;
+    for (int i = 0; i < count; ++i) {
+        const Segment<Scalar> segment = mixed_segment(soup.view(), extent, random);
+        QueryOptions options;
+        options.sides = std::array{Sides::front, Sides::back, Sides::both}[random.below(3)];
+        if (random.chance(0.2)) options.max_fraction = random.unit();
+        const auto hit = mesh.first_hit(segment, options);
+        ASSERT_TRUE(same_answer(hit, naive.first_hit(segment, options))) << i << ": " << to_text(segment);
+        ASSERT_EQ(mesh.any_hit(segment, options), hit.has_value()) << i << ": " << to_text(segment);
+        hits += hit.has_value() ? 1 : 0;
+        if (i % 4 != 0) continue;
+        const std::size_t total = mesh.all_hits(segment, some, options);
+        ASSERT_EQ(total, naive.all_hits(segment, expected, options)) << i << ": " << to_text(segment);
+        for (std::size_t k = 0; k < std::min(total, some.size()); ++k)
+            ASSERT_TRUE(same_bits(some[k], expected[k]))
+                << i << ", hit " << k << ": " << to_text(segment) << "\n  " << to_text(std::optional(some[k])) << "\n  "
+                << to_text(std::optional(expected[k]));
+    }
+    EXPECT_GT(hits, count / 20);
+}
+
+const Vec3<double> k_nowhere = {0, 0, 0};
+
+TEST(NaiveVsGrid, sphere) {
+    compare("float", moved<float>(bumpy_sphere(12), 1, k_nowhere), 4000, 1);
+    compare("double", moved<double>(bumpy_sphere(12), 1, k_nowhere), 4000, 2);
+    compare("float, far", moved<float>(bumpy_sphere(12), 100, {1e6, -1e6, 1e6}), 4000, 3);
+    compare("double, far", moved<double>(bumpy_sphere(12), 1, {1e6, -1e6, 1e6}), 4000, 4);
+    compare("tiny", moved<double>(bumpy_sphere(12), 1e-6, {1e3, 0, 0}), 2000, 5);
+    compare("huge", moved<float>(bumpy_sphere(12), 1e6, {1e3, 0, 0}), 2000, 6);
+}
+
+TEST(NaiveVsGrid, lattice) {
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+        compare("float", moved<float>(polycube(4, 0.5, 2, seed), 1, k_nowhere), 1500, 10 + seed);
+        compare("double", moved<double>(polycube(4, 0.5, 2, seed), 1, {1e6, 1e6, 1e6}), 1500, 20 + seed);
+    }
+}
+
+TEST(NaiveVsGrid, terrain_and_shards) {
+    compare("terrain", moved<float>(terrain(20, 0.1, 1), 1, k_nowhere), 4000, 31);
+    compare("flat terrain", moved<double>(terrain(20, 0, 1), 1, k_nowhere), 4000, 32);
+    compare("shards", moved<float>(shards(500, 1), 1, k_nowhere), 4000, 33);
+    compare("shards", moved<double>(shards(500, 2), 1000, {1e3, 1e3, 1e3}), 4000, 34);
+}
+
+TEST(NaiveVsGrid, any_resolution_gives_the_same_bits) {
+    const auto soup = moved<float>(polycube(4, 0.5, 2, 7), 0.1, k_nowhere);
+    for (const auto& cells : {std::array<std::uint32_t, 3>{1, 1, 1}, {2, 3, 1}, {7, 7, 7}, {64, 1, 5}, {40, 41, 42}})
+        compare("grid", soup, 1500, 41, {.grid_cells = cells, .max_grid_bytes = std::size_t{1} << 24});
+}
+
+}  // namespace
+}  // namespace pierce::test

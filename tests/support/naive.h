@@ -1,0 +1,114 @@
+// The naive twin of CollisionMesh: the same interface with no grid and no filter. Every triangle is decided in exact arithmetic; the
+// only shortcut compares the boxes of segment and triangle, which no rounding can touch.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <exact/planes.h>
+#include <pierce/hit.h>
+#include <pierce/mesh_view.h>
+#include <pierce/options.h>
+#include <query/report.h>
+
+namespace pierce::test {
+
+template <class Scalar>
+class NaiveMesh {
+  public:
+    explicit NaiveMesh(const MeshView<Scalar>& mesh) {
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            detail::Corners corners;
+            for (std::size_t k = 0; k < 3; ++k) corners[k] = detail::to_point(mesh.positions[mesh.triangles[i][k]]);
+            corners_.push_back(corners);
+            faces_.push_back(mesh.face_of(i));
+        }
+    }
+
+    [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Segment<Scalar>& segment,
+                                                       const QueryOptions& options = {}) const {
+        const std::vector<Found> found = hits(path_of(segment), options);
+        if (found.empty()) return std::nullopt;
+        return reported(path_of(segment), found, 0, options);
+    }
+
+    [[nodiscard]] bool any_hit(const Segment<Scalar>& segment, const QueryOptions& options = {}) const {
+        return !hits(path_of(segment), options).empty();
+    }
+
+    std::size_t all_hits(const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
+                         const QueryOptions& options = {}) const {
+        const std::vector<Found> found = hits(path_of(segment), options);
+        for (std::size_t i = 0; i < std::min(found.size(), out.size()); ++i)
+            out[i] = reported(path_of(segment), found, i, options);
+        return found.size();
+    }
+
+  private:
+    struct Found {
+        std::uint32_t triangle;
+        detail::Decision decision;
+    };
+
+    static detail::Path path_of(const Segment<Scalar>& segment) {
+        return {detail::to_point(segment.from), detail::to_point(segment.to)};
+    }
+
+    static bool apart(const detail::Path& path, const detail::Corners& c) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (std::max(path.from[k], path.to[k]) < std::min({c[0][k], c[1][k], c[2][k]})) return true;
+            if (std::min(path.from[k], path.to[k]) > std::max({c[0][k], c[1][k], c[2][k]})) return true;
+        }
+        return false;
+    }
+
+    [[nodiscard]] int order(const detail::Path& path, std::uint32_t x, std::uint32_t y) const {
+        return detail::compare_fractions(path, corners_[x], corners_[y]);
+    }
+
+    // In order of (fraction, face, triangle).
+    [[nodiscard]] std::vector<Found> hits(const detail::Path& path, const QueryOptions& options) const {
+        std::vector<Found> found;
+        for (std::uint32_t i = 0; i < corners_.size(); ++i) {
+            if (apart(path, corners_[i])) continue;
+            const detail::Decision decision = detail::decide(path, corners_[i], options.sides);
+            if (decision.hit && detail::fraction_at_most(path, corners_[i], options.max_fraction))
+                found.push_back({i, decision});
+        }
+        std::sort(found.begin(), found.end(), [&](const Found& x, const Found& y) {
+            const int c = order(path, x.triangle, y.triangle);
+            if (c != 0) return c < 0;
+            if (faces_[x.triangle] != faces_[y.triangle]) return faces_[x.triangle] < faces_[y.triangle];
+            return x.triangle < y.triangle;
+        });
+        return found;
+    }
+
+    [[nodiscard]] Hit<Scalar> reported(const detail::Path& path, const std::vector<Found>& found, std::size_t i,
+                                       const QueryOptions& options) const {
+        const std::uint32_t triangle = found[i].triangle;
+        const detail::Point normal = detail::exact_planes(corners_[triangle]).normal;
+        Hit<Scalar> hit = detail::report<Scalar>(path, corners_[triangle], normal, found[i].decision, faces_[triangle],
+                                                 triangle);
+        QueryOptions whole = options;
+        whole.max_fraction = 1;
+        const auto clear = [&](const detail::Point& point) {
+            for (const Found& other : hits({path.from, point}, whole)) {
+                const auto before = [&](const Found& f) {
+                    return f.triangle == other.triangle && order(path, f.triangle, triangle) < 0;
+                };
+                if (std::none_of(found.begin(), found.end(), before)) return false;
+            }
+            return true;
+        };
+        detail::verify(hit, path, corners_[triangle], normal, clear);
+        return hit;
+    }
+
+    std::vector<detail::Corners> corners_;
+    std::vector<std::uint32_t> faces_;
+};
+
+}  // namespace pierce::test
