@@ -102,7 +102,6 @@ void run(const Options& options) {
     }
     // A program that reads the CSV does not want the rest.
     write_report(options.csv && !csv_to_file ? std::cerr : std::cout, report, options);
-    if (!std::cout.flush()) throw InputError("cast: can't write to standard output");
 }
 
 }  // namespace
@@ -111,6 +110,7 @@ int main(int argc, char** argv) {
     try {
         const auto options = read_options(argc, argv);
         if (options) options->in_float ? run<float>(*options) : run<double>(*options);
+        if (!std::cout.flush()) throw InputError("cast: can't write to standard output");
         return 0;
     } catch (const std::bad_alloc&) {
         std::cerr << "cast: not enough memory\n";

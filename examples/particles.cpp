@@ -58,10 +58,10 @@ struct Particle {
 /// Moves a particle by one step of time; true if it bounced. Inside a closed mesh all faces are seen from the back.
 bool step(Particle& particle, const pierce::CollisionMesh<double>& mesh, const Vec3& gravity, double seconds) {
     particle.velocity += gravity * seconds;
-    const auto hit =
-        mesh.sweep(particle.position, particle.position + particle.velocity * seconds, {.sides = pierce::Sides::back});
+    const Vec3 target = particle.position + particle.velocity * seconds;
+    const auto hit = mesh.sweep(particle.position, target, {.sides = pierce::Sides::back});
     if (!hit) {
-        particle.position += particle.velocity * seconds;
+        particle.position = target;
         return false;
     }
     particle.position = hit->point;

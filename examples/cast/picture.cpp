@@ -114,7 +114,8 @@ std::uint8_t to_srgb(double linear) {
 
 template <class Scalar>
 Colour look(const pierce::CollisionMesh<Scalar>& mesh, const Camera& camera, double x, double y) {
-    const Point from = camera.eye(), to = camera.end_of_sight(x, y);
+    const Point& from = camera.eye();
+    const Point to = camera.end_of_sight(x, y);
     const auto hit = mesh.first_hit({from.cast<Scalar>(), to.cast<Scalar>()}, {.sides = pierce::Sides::both});
     if (!hit) return background(x, y);
     const double towards_side = hit->side == pierce::Sides::front ? 1 : -1;

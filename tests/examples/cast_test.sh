@@ -295,6 +295,9 @@ if [ -c /dev/full ]; then
     name="cast >/dev/full"
     "$cast" cube.obj >/dev/full 2>err
     [ $? -eq 2 ] && [ "$(cat err)" = "cast: can't write to standard output" ] || fail "$(cat err)"
+    name="cast --help >/dev/full"
+    "$cast" --help >/dev/full 2>err
+    [ $? -eq 2 ] && [ "$(cat err)" = "cast: can't write to standard output" ] || fail "$(cat err)"
 fi
 
 [ "$failures" -eq 0 ] || { echo "$failures checks failed"; exit 1; }
