@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <type_traits>
 
@@ -34,9 +35,11 @@ template <class Scalar, class Number>
 [[nodiscard]] Scalar coordinate_from(Number number, const SourceFile& file, const char* place) {
     if constexpr (std::is_floating_point_v<Number>) {
         if (!std::isfinite(number)) {
-            file.fail_at_byte(place, std::isnan(number) ? "a coordinate is not a number (NaN)" : "a coordinate is infinite");
+            file.fail_at_byte(place,
+                              std::isnan(number) ? "a coordinate is not a number (NaN)" : "a coordinate is infinite");
         }
     }
+    static_assert(std::numeric_limits<Scalar>::is_iec559, "what is too large must become infinite");
     const auto coordinate = static_cast<Scalar>(number);
     if (!std::isfinite(coordinate)) {
         std::array<char, 32> digits;

@@ -81,7 +81,7 @@ void EarClipper::clip(std::uint32_t tip) {
     look_again(before);
     look_again(after);
     if (obstacles_ < in_the_way_.size() / 2) {
-        rebuild_grid();  // with fewer cells: a box covers more of the grid as the polygon gets coarser
+        rebuild_grid();  // with fewer cells: a triangle covers more of the grid as the polygon gets coarser
     }
 }
 
@@ -109,15 +109,17 @@ int EarClipper::turn_at(std::uint32_t corner) const {
     return orient2d(points_[previous_[corner]], points_[corner], points_[next_[corner]]);
 }
 
-/// A corner at the very place of one of the triangle's own is not in the way: it belongs to a bridge or a touching point.
+/// A corner at the very place of one of the triangle's own is not in the way: it belongs to a bridge or a touching
+/// point.
 bool EarClipper::is_blocked(std::uint32_t tip) const {
     const Point2& a = points_[previous_[tip]];
     const Point2& b = points_[tip];
     const Point2& c = points_[next_[tip]];
-    Box2 box{a, a};
+    Box2 box;
+    box.add(a);
     box.add(b);
     box.add(c);
-    return grid_.any_in(box, [&](std::uint32_t corner) {
+    return grid_.any_near(a, b, c, [&](std::uint32_t corner) {
         const Point2& point = points_[corner];
         return box.holds(point) && is_in_the_way(corner) && point != a && point != b && point != c &&
                orient2d(a, b, point) >= 0 && orient2d(b, c, point) >= 0 && orient2d(c, a, point) >= 0;
@@ -125,14 +127,18 @@ bool EarClipper::is_blocked(std::uint32_t tip) const {
 }
 
 void EarClipper::rebuild_grid() {
+    Box2 bounds;
     in_the_way_.clear();
     for (std::uint32_t corner = 0; corner < points_.size(); ++corner) {
+        if (!clipped_[corner]) {
+            bounds.add(points_[corner]);
+        }
         if (is_in_the_way(corner)) {
             in_the_way_.push_back(corner);
         }
     }
     obstacles_ = in_the_way_.size();
-    grid_.build(points_, in_the_way_);
+    grid_.build(points_, in_the_way_, bounds);
 }
 
 }  // namespace pierce::detail

@@ -12,19 +12,20 @@
 
 namespace pierce::detail {
 
-/// Cuts off one ear after another: a corner that turns left, with no other corner in the triangle that it makes with its
-/// neighbours. (Meisters 1975, "Polygons have ears"; only the two neighbours of a clipped ear have to be looked at again,
-/// O'Rourke 1998, "Computational Geometry in C", section 1.4, so at most 3 n corners are looked at.)
+/// Cuts off one ear after another: a corner that turns left, with no other corner in the triangle that it makes with
+/// its neighbours. (Meisters 1975, "Polygons have ears"; only the two neighbours of a clipped ear have to be looked at
+/// again, O'Rourke 1998, "Computational Geometry in C", section 1.4, so at most 3 n corners are looked at.)
 ///
-/// Only corners that do not turn left can lie in such a triangle; a grid finds them. Polygons as people make them,
-/// outlines of letters or lakes, take about linear time. The worst case, when most triangles are long and cover most of the
-/// grid all the time, is quadratic: the number of corners times the number of those that do not turn left.
+/// Only corners that do not turn left can lie in such a triangle; a grid finds them. The shortest cut goes first, so
+/// that the triangles stay small. Outlines of letters or lakes, and combs and spirals, take about n log n: less than a
+/// second for 10^5 corners. The worst case, when most triangles are long and have many corners near them all the time,
+/// is quadratic: the number of corners times the number of those that do not turn left.
 class EarClipper {
   public:
     /// Writes the triangles, as places in `points`, which run counter-clockwise around the polygon. There must be two
     /// fewer triangles than points. All turn left if the polygon does not cross or touch itself; touching, as along the
-    /// bridge between an outline and its hole, is mostly cut well too. When no ear is left, corners on a line with their
-    /// neighbours are cut off, and after that the rest is cut as a fan.
+    /// bridge between an outline and its hole, is mostly cut well too. When no ear is left, corners on a line with
+    /// their neighbours are cut off, and after that the rest is cut as a fan.
     void cut(std::span<const Point2> points, std::span<std::array<std::uint32_t, 3>> triangles);
 
   private:
@@ -44,8 +45,7 @@ class EarClipper {
     std::vector<std::uint32_t> previous_, next_;    // the ring of corners not yet clipped
     std::vector<std::int8_t> turn_;
     std::vector<std::uint8_t> clipped_;
-    // Corners to look at that turn left, as a heap with the shortest diagonal first: the triangles stay small, and find few
-    // corners to be looked at in the grid. And those that do not turn, as a stack.
+    // Corners to look at: those that turn left as a heap, those that do not turn as a stack.
     std::vector<std::pair<double, std::uint32_t>> ears_;
     std::vector<std::uint32_t> flats_;
     std::vector<std::uint32_t> in_the_way_;

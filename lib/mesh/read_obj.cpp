@@ -16,11 +16,12 @@ using namespace std::string_view_literals;
 
 // Texture coordinates, normals, points, lines and settings in numbers.
 constexpr std::array k_number_statements = {"vt"sv, "vn"sv, "vp"sv, "l"sv, "p"sv, "s"sv, "mg"sv, "lod"sv};
-constexpr std::array k_name_statements = {"g"sv, "o"sv, "usemtl"sv, "mtllib"sv, "usemap"sv, "maplib"sv, "bevel"sv,
-                                          "c_interp"sv, "d_interp"sv, "shadow_obj"sv, "trace_obj"sv};
-constexpr std::array k_free_form_statements = {
-    "cstype"sv, "deg"sv, "bmat"sv, "step"sv, "curv"sv, "curv2"sv, "surf"sv, "parm"sv, "trim"sv, "hole"sv, "scrv"sv,
-    "sp"sv, "end"sv, "con"sv, "ctech"sv, "stech"sv, "bsp"sv, "bzp"sv, "cdc"sv, "cdp"sv, "res"sv};
+constexpr std::array k_name_statements = {"g"sv,        "o"sv,          "usemtl"sv,   "mtllib"sv,
+                                          "usemap"sv,   "maplib"sv,     "bevel"sv,    "c_interp"sv,
+                                          "d_interp"sv, "shadow_obj"sv, "trace_obj"sv};
+constexpr std::array k_free_form_statements = {"cstype"sv, "deg"sv,   "bmat"sv, "step"sv, "curv"sv, "curv2"sv, "surf"sv,
+                                               "parm"sv,   "trim"sv,  "hole"sv, "scrv"sv, "sp"sv,   "end"sv,   "con"sv,
+                                               "ctech"sv,  "stech"sv, "bsp"sv,  "bzp"sv,  "cdc"sv,  "cdp"sv,   "res"sv};
 
 template <class Words>
 bool holds(const Words& words, std::string_view word) {
@@ -54,7 +55,8 @@ class ObjReader {
     void vertex() {
         const VertexLine<Scalar> line = read_vertex_line<Scalar>(text_);
         if (line.numbers < 3 || line.numbers == 5) {
-            text_.fail("the vertex has " + counted(line.numbers, "number", "numbers") + ": 3, 4, or 6 and more are expected");
+            text_.fail("the vertex has " + counted(line.numbers, "number", "numbers") +
+                       ": 3, 4, or 6 and more are expected");
         }
         soup_.add_vertex(line.position);
     }
@@ -108,13 +110,14 @@ class ObjReader {
         text_.fail_at(first, corner_out_of_range(text_.integer_at(first), vertices, false) + " before it");
     }
 
-    /// A face may use vertices that come after it. Kept are only the corners that are further ahead than all before them:
-    /// the first corner beyond any number of vertices is one of these.
+    /// A face may use vertices that come after it. Kept are only the corners that are further ahead than all before
+    /// them: the first corner beyond any number of vertices is one of these.
     void check_forward_corners() {
         const auto vertices = static_cast<std::int64_t>(soup_.vertex_count());
         for (const ForwardCorner& corner : forward_) {
             if (corner.index > vertices) {
-                text_.fail_at(corner.place, corner_out_of_range(text_.integer_at(corner.place), soup_.vertex_count(), false));
+                text_.fail_at(corner.place,
+                              corner_out_of_range(text_.integer_at(corner.place), soup_.vertex_count(), false));
             }
         }
     }
@@ -137,8 +140,8 @@ class ObjReader {
         }
     }
 
-    /// A backslash right behind a name, as in `mtllib C:\meshes\`, belongs to it; the statement on the next line must not be
-    /// lost. After a blank it continues the line, as everywhere.
+    /// A backslash right behind a name, as in `mtllib C:\meshes\`, belongs to it; the statement on the next line must
+    /// not be lost. After a blank it continues the line, as everywhere.
     void pass_names() {
         while (!text_.at_end_of_line()) {
             text_.word();

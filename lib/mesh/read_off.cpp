@@ -49,8 +49,8 @@ class OffReader {
     }
 
   private:
-    /// [ST][C][N][4][n]OFF, also with the letters in another order (MeshLab writes NCOFF). The counts follow on the same line
-    /// or the next, or even without a blank (ModelNet's files).
+    /// [ST][C][N][4][n]OFF, also with the letters in another order (MeshLab writes NCOFF). The counts follow on the
+    /// same line or the next, or even without a blank (ModelNet's files).
     void keyword() {
         text_.find_line();
         const char* first = text_.place();
@@ -105,7 +105,8 @@ class OffReader {
 
     void find_line(std::uint64_t found, std::uint64_t all, std::string_view what) {
         if (!text_.find_line()) {
-            text_.fail("the file ends after " + std::to_string(found) + " of " + std::to_string(all).append(" ").append(what));
+            text_.fail("the file ends after " + std::to_string(found) + " of " +
+                       std::to_string(all).append(" ").append(what));
         }
     }
 
@@ -113,8 +114,10 @@ class OffReader {
         const VertexLine<Scalar> line = read_vertex_line<Scalar>(text_);
         const std::size_t least = 3 + extra_numbers_ + (has_colour_ ? 3 : 0);
         if (line.numbers != least && !(has_colour_ && line.numbers == least + 1)) {
-            const std::string expected = std::to_string(least) + (has_colour_ ? " or " + std::to_string(least + 1) : "");
-            text_.fail("the vertex has " + counted(line.numbers, "number", "numbers") + ": " + expected + " are expected");
+            const std::string expected =
+                std::to_string(least) + (has_colour_ ? " or " + std::to_string(least + 1) : "");
+            text_.fail("the vertex has " + counted(line.numbers, "number", "numbers") + ": " + expected +
+                       " are expected");
         }
         soup_.add_vertex(line.position);
         text_.next_line();
@@ -128,8 +131,8 @@ class OffReader {
         corners_.clear();
         while (corners_.size() < corners) {
             if (text_.at_end_of_line()) {
-                text_.fail("the line has " + std::to_string(corners_.size()) + " of the face's " + std::to_string(corners) +
-                           " corners");
+                text_.fail("the line has " + std::to_string(corners_.size()) + " of the face's " +
+                           std::to_string(corners) + " corners");
             }
             corners_.push_back(corner());
         }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace pierce::detail {
 
@@ -43,8 +44,8 @@ inline int orient2d_exact(const Point2& a, const Point2& b, const Point2& c) {
 }
 
 /// 1 if a, b, c turn left, -1 if they turn right, 0 if they lie on one line. Exact where no product of two coordinates
-/// leaves the range of double; the caller keeps the largest between 2^-100 and 2^100, so that only coordinates 2^380 times
-/// smaller than that could be mistaken for 0.
+/// leaves the range of double; the caller keeps the largest between 2^-100 and 2^100, so that only coordinates 2^380
+/// times smaller than that could be mistaken for 0.
 inline int orient2d(const Point2& a, const Point2& b, const Point2& c) {
     const double left = (a[0] - c[0]) * (b[1] - c[1]);
     const double right = (a[1] - c[1]) * (b[0] - c[0]);

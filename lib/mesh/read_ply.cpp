@@ -1,4 +1,5 @@
-// PLY: text and both byte orders; positions and corners are picked out of the rows, all else is passed over by its type.
+// PLY: text and both byte orders; positions and corners are picked out of the rows, all else is passed over by its
+// type.
 #include <array>
 #include <string>
 #include <string_view>

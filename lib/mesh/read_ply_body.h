@@ -70,7 +70,8 @@ class PlyTextBody {
 class PlyBinaryBody {
   public:
     PlyBinaryBody(const PlyHeader& header, const SourceFile& file)
-        : file_(file), at_(header.body),
+        : file_(file),
+          at_(header.body),
           order_(header.format == PlyFormat::big_endian ? std::endian::big : std::endian::little) {}
 
     void begin_row(const PlyElement& element, std::uint64_t row) {
@@ -100,8 +101,8 @@ class PlyBinaryBody {
     void need(std::uint64_t bytes) const {
         if (bytes > static_cast<std::uint64_t>(file_.end() - at_)) {
             file_.fail_at_byte(file_.end(), "the file ends inside row " + std::to_string(row_) + " of the " +
-                                                std::to_string(element_->rows) + " of element " + quoted(element_->name) +
-                                                ", counted from 0");
+                                                std::to_string(element_->rows) + " of element " +
+                                                quoted(element_->name) + ", counted from 0");
         }
     }
 
@@ -117,14 +118,22 @@ class PlyBinaryBody {
     template <class Result, class Use>
     Result with_number(PlyType type, Use use) {
         switch (type) {
-            case PlyType::int8: return use(take<std::int8_t>());
-            case PlyType::uint8: return use(take<std::uint8_t>());
-            case PlyType::int16: return use(take<std::int16_t>());
-            case PlyType::uint16: return use(take<std::uint16_t>());
-            case PlyType::int32: return use(take<std::int32_t>());
-            case PlyType::uint32: return use(take<std::uint32_t>());
-            case PlyType::float32: return use(take<float>());
-            case PlyType::float64: break;
+            case PlyType::int8:
+                return use(take<std::int8_t>());
+            case PlyType::uint8:
+                return use(take<std::uint8_t>());
+            case PlyType::int16:
+                return use(take<std::int16_t>());
+            case PlyType::uint16:
+                return use(take<std::uint16_t>());
+            case PlyType::int32:
+                return use(take<std::int32_t>());
+            case PlyType::uint32:
+                return use(take<std::uint32_t>());
+            case PlyType::float32:
+                return use(take<float>());
+            case PlyType::float64:
+                break;
         }
         return use(take<double>());
     }

@@ -12,10 +12,22 @@ namespace pierce::detail {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, PlyType>, 16> k_types = {{
-    {"char", PlyType::int8},   {"int8", PlyType::int8},   {"uchar", PlyType::uint8},    {"uint8", PlyType::uint8},
-    {"short", PlyType::int16}, {"int16", PlyType::int16}, {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},
-    {"int", PlyType::int32},   {"int32", PlyType::int32}, {"uint", PlyType::uint32},    {"uint32", PlyType::uint32},
-    {"float", PlyType::float32}, {"float32", PlyType::float32}, {"double", PlyType::float64}, {"float64", PlyType::float64},
+    {"char", PlyType::int8},
+    {"int8", PlyType::int8},
+    {"uchar", PlyType::uint8},
+    {"uint8", PlyType::uint8},
+    {"short", PlyType::int16},
+    {"int16", PlyType::int16},
+    {"ushort", PlyType::uint16},
+    {"uint16", PlyType::uint16},
+    {"int", PlyType::int32},
+    {"int32", PlyType::int32},
+    {"uint", PlyType::uint32},
+    {"uint32", PlyType::uint32},
+    {"float", PlyType::float32},
+    {"float32", PlyType::float32},
+    {"double", PlyType::float64},
+    {"float64", PlyType::float64},
 }};
 
 constexpr std::array<std::pair<std::string_view, PlyFormat>, 3> k_formats = {{
@@ -78,7 +90,8 @@ class PlyHeaderReader {
 
     void element(const char* first) {
         const std::string_view name = needed_word("name");
-        if (std::any_of(header_.elements.begin(), header_.elements.end(), [=](const auto& e) { return e.name == name; })) {
+        if (std::any_of(header_.elements.begin(), header_.elements.end(),
+                        [=](const auto& e) { return e.name == name; })) {
             text_.fail_at(first, "element " + quoted(name) + " comes twice");
         }
         text_.at_end_of_line();
@@ -118,7 +131,8 @@ class PlyHeaderReader {
     template <class Value, std::size_t Size>
     Value named(const std::array<std::pair<std::string_view, Value>, Size>& table, std::string_view what) {
         const std::string_view word = needed_word(what);
-        const auto found = std::find_if(table.begin(), table.end(), [=](const auto& entry) { return entry.first == word; });
+        const auto found =
+            std::find_if(table.begin(), table.end(), [=](const auto& entry) { return entry.first == word; });
         if (found == table.end()) {
             text_.fail(std::string(what) + " " + quoted(word) + " is not known");
         }
@@ -140,8 +154,8 @@ class PlyHeaderReader {
         text_.next_line();
     }
 
-    /// The body starts right behind the line end. If that is a lone \r, a \n behind it is the first byte of the body: such
-    /// files end all their lines so.
+    /// The body starts right behind the line end. If that is a lone \r, a \n behind it is the first byte of the body:
+    /// such files end all their lines so.
     void find_body() {
         if (!text_.at_end_of_line()) {
             end_line();
@@ -192,9 +206,10 @@ void check_sizes(const PlyHeader& header, const PlyProperty* corners, const Sour
             continue;
         }
         if (element.rows > left / row) {
-            file.fail_at_line(element.place, counted(element.rows, "row", "rows") + " of element " + quoted(element.name) +
-                                                 ", of at least " + counted(row, "byte", "bytes") +
-                                                 " each, do not fit in the " + std::to_string(left) + " that are left");
+            file.fail_at_line(element.place, counted(element.rows, "row", "rows") + " of element " +
+                                                 quoted(element.name) + ", of at least " +
+                                                 counted(row, "byte", "bytes") + " each, do not fit in the " +
+                                                 std::to_string(left) + " that are left");
         }
         left -= element.rows * row;
     }

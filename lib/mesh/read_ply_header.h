@@ -17,9 +17,9 @@ enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, f
 
 struct PlyProperty {
     std::string_view name;
-    PlyType type;                        ///< of the number, or of each item of a list
-    std::optional<PlyType> count_type;   ///< of a list's length; none if it is a single number
-    const char* place;                   ///< in the header, for messages
+    PlyType type;                       ///< of the number, or of each item of a list
+    std::optional<PlyType> count_type;  ///< of a list's length; none if it is a single number
+    const char* place;                  ///< in the header, for messages
 };
 
 struct PlyElement {
@@ -38,8 +38,8 @@ struct PlyHeader {
 /// Refuses a header that is malformed or names what is not known. Counts are only read here: see `check_sizes`.
 [[nodiscard]] PlyHeader read_ply_header(const SourceFile& file);
 
-/// Refuses counts for which the rest of the file is too short, so that a reader may trust them when it reserves memory or
-/// loops. `corners` is the list that holds the corners of faces, at least three to a row, if there is one.
+/// Refuses counts for which the rest of the file is too short, so that a reader may trust them when it reserves memory
+/// or loops. `corners` is the list that holds the corners of faces, at least three to a row, if there is one.
 void check_sizes(const PlyHeader& header, const PlyProperty* corners, const SourceFile& file);
 
 }  // namespace pierce::detail

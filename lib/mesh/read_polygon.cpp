@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -11,7 +12,8 @@ namespace pierce::detail {
 template <class Scalar>
 void PolygonCutter<Scalar>::cut(std::span<IndexTriple> triangles) {
     collect_corners(triangles);
-    if (!project() || fan_covers()) {
+    project();
+    if (fan_covers()) {
         return;
     }
     clipper_.cut(flat_, triangles);
@@ -45,27 +47,49 @@ void PolygonCutter<Scalar>::collect_corners(std::span<const IndexTriple> fan) {
 
 /// Drops the axis along which Newell's normal (Sutherland, Sproull, Schumacker 1974, "A Characterization of Ten
 /// Hidden-Surface Algorithms") is longest; no coordinate is changed, so no sign of a turn is either. The two others are
-/// ordered such that the polygon runs counter-clockwise. False if it has no area to speak of.
+/// ordered such that the polygon runs counter-clockwise.
 template <class Scalar>
-bool PolygonCutter<Scalar>::project() {
+void PolygonCutter<Scalar>::project() {
     Vec3<double> normal = Vec3<double>::Zero();
+    Eigen::AlignedBox3d box(points_[0]);
     for (std::size_t i = 2; i < points_.size(); ++i) {
         normal += (points_[i - 1] - points_[0]).cross(points_[i] - points_[0]);
     }
-    Eigen::Index axis = 0;
-    if (!(normal.cwiseAbs().maxCoeff(&axis) > 0)) {
-        return false;
+    for (const Vec3<double>& point : points_) {
+        box.extend(point);
     }
-    Eigen::Index right = (axis + 1) % 3;
-    Eigen::Index up = (axis + 2) % 3;
-    if (normal[axis] < 0) {
-        std::swap(right, up);
+    Eigen::Index axis = 0;
+    if (normal.cwiseAbs().maxCoeff(&axis) == 0) {
+        box.sizes().minCoeff(&axis);
     }
     flat_.clear();
     for (const Vec3<double>& point : points_) {
-        flat_.push_back({point[right], point[up]});
+        flat_.push_back({point[(axis + 1) % 3], point[(axis + 2) % 3]});
     }
-    return true;
+    const int turn = turn_at_lowest_corner();
+    if (turn < 0 || (turn == 0 && normal[axis] < 0)) {
+        for (Point2& point : flat_) {
+            std::swap(point[0], point[1]);
+        }
+    }
+}
+
+/// A polygon that does not cross itself turns at its extreme corner as it does as a whole. This is exact, while the
+/// sign of the rounded normal is wrong for some needles. If the outline passes the extreme point more than once, the
+/// first turn that is not straight counts.
+template <class Scalar>
+int PolygonCutter<Scalar>::turn_at_lowest_corner() const {
+    const Point2 lowest = *std::min_element(flat_.begin(), flat_.end());
+    for (std::size_t i = 0; i < flat_.size(); ++i) {
+        if (flat_[i] == lowest) {
+            const Point2& before = flat_[i == 0 ? flat_.size() - 1 : i - 1];
+            const Point2& after = flat_[i + 1 == flat_.size() ? 0 : i + 1];
+            if (const int turn = orient2d(before, flat_[i], after); turn != 0) {
+                return turn;
+            }
+        }
+    }
+    return 0;
 }
 
 /// Triangles that all turn left, and that together have the polygon's outline, cover it once: at each point, the number

@@ -18,15 +18,16 @@ class PolygonCutter {
   public:
     explicit PolygonCutter(std::span<const Vec3<Scalar>> positions) : positions_(positions) {}
 
-    /// Takes a polygon of n corners as the n-2 triangles of the fan around its first corner, and leaves n-2 triangles of
-    /// the same orientation that cover it without overlap, seen along the axis that it faces most. A fan that does so is
-    /// left as it is, in linear time: every strictly convex polygon. Others go to the `EarClipper`. A polygon that crosses
-    /// itself, or has no area, is cut in some way, always into n-2 triangles.
+    /// Takes a polygon of n corners as the n-2 triangles of the fan around its first corner, and leaves n-2 triangles
+    /// of the same orientation that cover it without overlap, seen along the axis that it faces most. A fan that does
+    /// so is left as it is, in linear time: every strictly convex polygon. Others go to the `EarClipper`. A polygon
+    /// that crosses itself, or has no area, is cut in some way, always into n-2 triangles.
     void cut(std::span<IndexTriple> triangles);
 
   private:
     void collect_corners(std::span<const IndexTriple> fan);
-    bool project();
+    void project();
+    [[nodiscard]] int turn_at_lowest_corner() const;
     [[nodiscard]] bool fan_covers() const;
 
     std::span<const Vec3<Scalar>> positions_;

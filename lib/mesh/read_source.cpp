@@ -20,7 +20,8 @@ struct CloseFile {
 std::string printable(std::string_view text) {
     std::string line(text);
     // A message is one line whatever the file, or its name, holds. Bytes above 127 are left: names are often UTF-8.
-    std::replace_if(line.begin(), line.end(), [](char c) { return (c >= 0 && c < ' ') || c == 127; }, '?');
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return (c >= 0 && c < ' ') || c == 127; }, '?');
     return line;
 }
 
@@ -59,7 +60,8 @@ SourceFile::SourceFile(const std::filesystem::path& path) : path_(path.string())
     }
     size_ = std::fread(bytes_.get(), 1, static_cast<std::size_t>(size), file.get());
     if (size_ != size) {
-        fail(std::ferror(file.get()) != 0 ? "can't be read: " + system_reason(errno) : "became shorter while it was read");
+        fail(std::ferror(file.get()) != 0 ? "can't be read: " + system_reason(errno)
+                                          : "became shorter while it was read");
     }
     bytes_[size_] = '\n';
 }
@@ -86,7 +88,8 @@ void SourceFile::fail_at_byte(const char* place, std::string_view reason) const 
 std::string quoted(std::string_view word) {
     constexpr std::size_t longest = 40;
     std::string shown(word.substr(0, longest));
-    std::replace_if(shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    std::replace_if(
+        shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
     return "'" + shown + (word.size() > longest ? "...'" : "'");
 }
 

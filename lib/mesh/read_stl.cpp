@@ -16,12 +16,11 @@ namespace {
 
 constexpr std::size_t k_header_bytes = 80;
 constexpr std::size_t k_start_bytes = k_header_bytes + 4;  // with the count of facets
-constexpr std::size_t k_facet_bytes = 50;                  // normal, three corners of three floats, 16 bits for free use
+constexpr std::size_t k_facet_bytes = 50;  // normal, three corners of three floats, 16 bits for free use
 
 bool equals_ignoring_case(std::string_view word, std::string_view lower) {
-    return std::equal(word.begin(), word.end(), lower.begin(), lower.end(), [](char a, char b) {
-        return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
-    });
+    return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
+                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
 }
 
 std::uint64_t binary_size(const SourceFile& file) {
@@ -29,8 +28,9 @@ std::uint64_t binary_size(const SourceFile& file) {
     return k_start_bytes + std::uint64_t{facets} * k_facet_bytes;
 }
 
-/// Binary files may begin with "solid" too. The size tells: read as a count, four characters of a text mean a file of many
-/// gigabytes. Where the size fits neither way, a zero byte tells, so that the message is about the right kind of file.
+/// Binary files may begin with "solid" too. The size tells: read as a count, four characters of a text mean a file of
+/// many gigabytes. Where the size fits neither way, a zero byte tells, so that the message is about the right kind of
+/// file.
 bool is_text(const SourceFile& file) {
     const std::string_view start(file.begin(), std::min(file.size(), k_start_bytes));
     if (start.size() == k_start_bytes && binary_size(file) == file.size()) {
@@ -60,13 +60,15 @@ class StlReader {
 
     TriangleSoup<Scalar> read_binary() {
         if (file_.size() < k_start_bytes) {
-            file_.fail_at_byte(file_.end(), "the file ends inside the first " + std::to_string(k_start_bytes) + " bytes");
+            file_.fail_at_byte(file_.end(),
+                               "the file ends inside the first " + std::to_string(k_start_bytes) + " bytes");
         }
         if (binary_size(file_) != file_.size()) {
             const auto facets = number_at<std::uint32_t>(file_.begin() + k_header_bytes, std::endian::little);
             file_.fail_at_byte(file_.begin() + k_header_bytes,
                                counted(facets, "triangle", "triangles") + " make a file of " +
-                                   std::to_string(binary_size(file_)) + " bytes: this one has " + std::to_string(file_.size()));
+                                   std::to_string(binary_size(file_)) + " bytes: this one has " +
+                                   std::to_string(file_.size()));
         }
         soup_.reserve(0, (file_.size() - k_start_bytes) / k_facet_bytes);
         for (const char* facet = file_.begin() + k_start_bytes; facet != file_.end(); facet += k_facet_bytes) {
@@ -86,8 +88,8 @@ class StlReader {
     }
 
   private:
-    /// normal x y z / outer loop / three times vertex x y z / endloop / endfacet. The normal follows from the corners, and
-    /// is often wrong: it is passed over.
+    /// normal x y z / outer loop / three times vertex x y z / endloop / endfacet. The normal follows from the corners,
+    /// and is often wrong: it is passed over.
     void facet() {
         expect("normal");
         for (int i = 0; i < 3; ++i) {

@@ -35,8 +35,8 @@ class VertexMerger {
     [[nodiscard]] std::size_t slot_of(const Vec3<Scalar>& position) const {
         std::uint64_t hash = 0;
         for (const Scalar x : position) {
-            // Exact in double. The multiplier is that of SplitMix64 (Steele, Lea, Flood 2014); the shift brings the high
-            // bits down, which hold all the information of round coordinates.
+            // Exact in double. The multiplier is that of SplitMix64 (Steele, Lea, Flood 2014); the shift brings the
+            // high bits down, which hold all the information of round coordinates.
             hash = (hash ^ std::bit_cast<std::uint64_t>(static_cast<double>(x))) * 0xBF58'476D'1CE4'E5B9;
             hash ^= hash >> 32;
         }

@@ -96,8 +96,10 @@ TEST(ReadMesh, RoundsOnlyOnce) {
 }
 
 TEST(ReadMesh, RefusesWhatIsNotANumber) {
-    for (const char* word : {"a", "1a", "1,5", "1.2.3", "0x10", "--1", "+-1", "+", "-", ".", "1e", "e5", "1.5f", "1#2", "1d5"}) {
-        EXPECT_EQ(refusal("obj", "v 0 0 " + std::string(word) + "\nf 1 1 1"), ":1: '" + std::string(word) + "' is not a number");
+    for (const char* word :
+         {"a", "1a", "1,5", "1.2.3", "0x10", "--1", "+-1", "+", "-", ".", "1e", "e5", "1.5f", "1#2", "1d5"}) {
+        EXPECT_EQ(refusal("obj", "v 0 0 " + std::string(word) + "\nf 1 1 1"),
+                  ":1: '" + std::string(word) + "' is not a number");
     }
     EXPECT_EQ(refusal("obj", "v 0 0 + 1\nf 1 1 1"), ":1: '+' is not a number");
     // Written by old Microsoft libraries; the '#' begins no comment.
@@ -109,10 +111,12 @@ TEST(ReadMesh, RefusesWhatIsNotFiniteOrDoesNotFit) {
         EXPECT_EQ(refusal("obj", "v 0 " + std::string(word) + " 0\nf 1 1 1"),
                   ":1: coordinate '" + std::string(word) + "' is not finite");
     }
-    EXPECT_EQ(refusal<float>("obj", "v 0 0 0\nv 0 -3.5e38 0\nf 1 1 1"), ":2: coordinate '-3.5e38' does not fit in float");
+    EXPECT_EQ(refusal<float>("obj", "v 0 0 0\nv 0 -3.5e38 0\nf 1 1 1"),
+              ":2: coordinate '-3.5e38' does not fit in float");
     EXPECT_EQ(refusal<double>("obj", "v 0 0 0\nv 0 -3.5e38 0\nf 1 1 1"), "read");
     EXPECT_EQ(refusal<double>("obj", "v 0 .2e309 0\nf 1 1 1"), ":1: coordinate '.2e309' does not fit in double");
-    EXPECT_EQ(refusal<double>("obj", "v 0 1e999999999999 0\nf 1 1 1"), ":1: coordinate '1e999999999999' does not fit in double");
+    EXPECT_EQ(refusal<double>("obj", "v 0 1e999999999999 0\nf 1 1 1"),
+              ":1: coordinate '1e999999999999' does not fit in double");
 }
 
 // The real limit is beyond any test's memory; the builder takes another.

@@ -19,7 +19,8 @@ TEST(ReadObj, ReadsPositionsAndFaces) {
 }
 
 TEST(ReadObj, TakesWeightsAndColoursBehindAPosition) {
-    const auto mesh = read("obj", "v 1 2 3\nv 1 2 3 0.5\nv 1 2 3 .1 .2 .3\nv 1 2 3 1 .1 .2 .3\nv 1 2 3 nan 1e999 -1 # grey\nf 1 2 3\n");
+    const auto mesh = read(
+        "obj", "v 1 2 3\nv 1 2 3 0.5\nv 1 2 3 .1 .2 .3\nv 1 2 3 1 .1 .2 .3\nv 1 2 3 nan 1e999 -1 # grey\nf 1 2 3\n");
     ASSERT_EQ(mesh.positions.size(), 5U);
     for (const auto& position : mesh.positions) {
         EXPECT_EQ(position, Vec3<double>(1, 2, 3));
@@ -32,9 +33,10 @@ TEST(ReadObj, TakesWeightsAndColoursBehindAPosition) {
 
 TEST(ReadObj, TakesEveryFormOfCorner) {
     const Triangles expected = {{0, 1, 2}};
-    for (const char* face : {"f 1 2 3", "f 1/1 2/2 3/3", "f 1//1 2//2 3//3", "f 1/1/1 2/2/2 3/3/3", "f -4 -3 -2", "f -4/-1/-1 2//-7 3/9/",
-                             "f 1/ 2/ 3/", "f +1 2 3", "f 1// 2 3", "f\t1\t2 \t 3 \t", "f 1 2 3 # last", "  f 1 2 3", "f 1 2 3\r",
-                             "f 1 \\\n 2 \\\r\n\t3", "f 1\\\n 2\\\n 3", "f\\\n 1 2 3"}) {
+    for (const char* face :
+         {"f 1 2 3", "f 1/1 2/2 3/3", "f 1//1 2//2 3//3", "f 1/1/1 2/2/2 3/3/3", "f -4 -3 -2", "f -4/-1/-1 2//-7 3/9/",
+          "f 1/ 2/ 3/", "f +1 2 3", "f 1// 2 3", "f\t1\t2 \t 3 \t", "f 1 2 3 # last", "  f 1 2 3", "f 1 2 3\r",
+          "f 1 \\\n 2 \\\r\n\t3", "f 1\\\n 2\\\n 3", "f\\\n 1 2 3"}) {
         EXPECT_EQ(read("obj", k_square + face).triangles, expected) << face;
         EXPECT_EQ(read("obj", k_square + face + "\n").triangles, expected) << face;
     }
@@ -69,12 +71,15 @@ TEST(ReadObj, IndicesCountFromTheirFaceBackwardOrMayRunAhead) {
 
 TEST(ReadObj, RefusesIndicesOutOfRange) {
     EXPECT_EQ(refusal("obj", k_square + "f 1 2 5\n"), ":5: corner 5 of the face is out of range: there are 4 vertices");
-    EXPECT_EQ(refusal("obj", k_square + "f 1 2 5/1/1\n"), ":5: corner 5 of the face is out of range: there are 4 vertices");
-    EXPECT_EQ(refusal("obj", k_square + "f 1 2 0\n"), ":5: corner 0 of the face is out of range: vertices are counted from 1");
+    EXPECT_EQ(refusal("obj", k_square + "f 1 2 5/1/1\n"),
+              ":5: corner 5 of the face is out of range: there are 4 vertices");
+    EXPECT_EQ(refusal("obj", k_square + "f 1 2 0\n"),
+              ":5: corner 0 of the face is out of range: vertices are counted from 1");
     EXPECT_EQ(refusal("obj", "v 0 0 0\nf 1 1 -2//3\nv 0 0 0\n"),
               ":2: corner -2 of the face is out of range: there is 1 vertex before it");
     // 2^32 + 1 and 2^64 + 1 would be 1 in 32 and 64 bits.
-    for (const char* huge : {"4294967297", "18446744073709551617", "+9223372036854775808", "1000000000000000000000000000000"}) {
+    for (const char* huge :
+         {"4294967297", "18446744073709551617", "+9223372036854775808", "1000000000000000000000000000000"}) {
         EXPECT_EQ(refusal("obj", k_square + "f 1 2 " + huge),
                   ":5: corner " + std::string(huge) + " of the face is out of range: there are 4 vertices");
     }
@@ -103,9 +108,10 @@ TEST(ReadObj, RefusesFacesThatAreNone) {
 }
 
 TEST(ReadObj, PassesOverWhatHoldsNoSurface) {
-    const auto mesh = read("obj", "mtllib C:\\a b\\\no ship\ng hull \\\n deck\n" + k_square +
-                                      "vt 0.5 \\\n 0.5\nvn 0 0 1\nvp 1\ns off\nusemtl steel#3\nl 1 2 \\\n3\np 1\nmg 1 2\nlod 1\n"
-                                      "bevel on\nf 1 2 3\n");
+    const auto mesh =
+        read("obj", "mtllib C:\\a b\\\no ship\ng hull \\\n deck\n" + k_square +
+                        "vt 0.5 \\\n 0.5\nvn 0 0 1\nvp 1\ns off\nusemtl steel#3\nl 1 2 \\\n3\np 1\nmg 1 2\nlod 1\n"
+                        "bevel on\nf 1 2 3\n");
     EXPECT_EQ(mesh.positions.size(), 4U);
     EXPECT_EQ(mesh.triangles.size(), 1U);
 }

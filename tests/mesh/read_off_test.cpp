@@ -10,8 +10,9 @@ using test::refusal;
 const std::string k_body = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 TEST(ReadOff, TakesEveryPlaceForTheCounts) {
-    for (const char* header : {"OFF\n3 1 0\n", "OFF 3 1 0\n", "OFF3 1 0\n", "OFF\r\n3 1 3\r\n", "# made by hand\n\nOFF # plain\n# counts\n3 1\n",
-                               "  OFF\n\n 3\t1 0 # three\n", "OFF 3 +1 -1\n"}) {
+    for (const char* header :
+         {"OFF\n3 1 0\n", "OFF 3 1 0\n", "OFF3 1 0\n", "OFF\r\n3 1 3\r\n",
+          "# made by hand\n\nOFF # plain\n# counts\n3 1\n", "  OFF\n\n 3\t1 0 # three\n", "OFF 3 +1 -1\n"}) {
         const auto mesh = read("off", header + k_body);
         EXPECT_EQ(mesh.positions.size(), 3U) << header;
         EXPECT_EQ(mesh.triangles, (std::vector<IndexTriple>{{0, 1, 2}})) << header;
@@ -22,9 +23,14 @@ TEST(ReadOff, TakesExtraNumbersThatTheHeaderNames) {
     const auto file = [](const std::string& keyword, const std::string& extra) {
         return keyword + "\n3 1 0\n1 2 3" + extra + "\n4 5 6" + extra + "\n7 8 10" + extra + "\n3 0 1 2\n";
     };
-    const std::vector<std::pair<std::string, std::string>> variants = {
-        {"COFF", " 255 0 0"},   {"COFF", " 255 0 0 255"},   {"NOFF", " 0 0 1"},         {"STOFF", " .5 .5"},
-        {"CNOFF", " 0 0 1 1 1 1"}, {"NCOFF", " 0 0 1 1 1 1 1"}, {"STCNOFF", " 0 0 1 1 1 1 1 0 0"}, {"STNOFF", " 1 2 3 4 5"}};
+    const std::vector<std::pair<std::string, std::string>> variants = {{"COFF", " 255 0 0"},
+                                                                       {"COFF", " 255 0 0 255"},
+                                                                       {"NOFF", " 0 0 1"},
+                                                                       {"STOFF", " .5 .5"},
+                                                                       {"CNOFF", " 0 0 1 1 1 1"},
+                                                                       {"NCOFF", " 0 0 1 1 1 1 1"},
+                                                                       {"STCNOFF", " 0 0 1 1 1 1 1 0 0"},
+                                                                       {"STNOFF", " 1 2 3 4 5"}};
     for (const auto& [keyword, extra] : variants) {
         const auto mesh = read("off", file(keyword, extra));
         EXPECT_EQ(mesh.positions[2], Vec3<double>(7, 8, 10)) << keyword;
@@ -37,7 +43,9 @@ TEST(ReadOff, TakesExtraNumbersThatTheHeaderNames) {
 }
 
 TEST(ReadOff, TakesFacesOfAnySizeWithAColour) {
-    const auto mesh = read("off", "OFF\n5 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n-1 .5 0\n4 0 1 2 3 0.5 0.5 0.5\n3 0 1 2 7\n5 0 1 2 3 4 1 2 3 4\n3 1 1 1\n");
+    const auto mesh = read("off",
+                           "OFF\n5 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n-1 .5 0\n4 0 1 2 3 0.5 0.5 0.5\n3 0 1 2 7\n5 0 1 2 "
+                           "3 4 1 2 3 4\n3 1 1 1\n");
     EXPECT_EQ(mesh.triangles.size(), 7U);
     EXPECT_EQ(mesh.faces, (std::vector<std::uint32_t>{0, 0, 1, 2, 2, 2, 3}));
     EXPECT_EQ(refusal("off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 1 2 3 4 5\n"),
@@ -53,8 +61,10 @@ TEST(ReadOff, RefusesOtherKindsOfOff) {
     EXPECT_EQ(refusal("off", "OFF BINARY\n" + k_body), ":1: binary OFF files are not read");
     EXPECT_EQ(refusal("off", "COFF BINARY\n" + k_body), ":1: binary OFF files are not read");
     EXPECT_EQ(refusal("off", "4OFF\n3 1 0\n" + k_body), ":1: only points of 3 numbers are read, not those of '4OFF'");
-    EXPECT_EQ(refusal("off", "nOFF\n3\n3 1 0\n" + k_body), ":1: only points of 3 numbers are read, not those of 'nOFF'");
-    EXPECT_EQ(refusal("off", "C4nOFF\n3\n3 1 0\n" + k_body), ":1: only points of 3 numbers are read, not those of 'C4nOFF'");
+    EXPECT_EQ(refusal("off", "nOFF\n3\n3 1 0\n" + k_body),
+              ":1: only points of 3 numbers are read, not those of 'nOFF'");
+    EXPECT_EQ(refusal("off", "C4nOFF\n3\n3 1 0\n" + k_body),
+              ":1: only points of 3 numbers are read, not those of 'C4nOFF'");
     EXPECT_EQ(refusal("off", "3 1 0\n" + k_body), ":1: begins with '3', not with OFF");
     EXPECT_EQ(refusal("off", "\nOFFSET 1\n"), ":2: begins with 'OFFSET', not with OFF");
     EXPECT_EQ(refusal("off", "\n\n"), ":3: begins with '', not with OFF");
@@ -74,11 +84,14 @@ TEST(ReadOff, RefusesCountsThatAreNone) {
 TEST(ReadOff, RefusesCountsForWhichTheFileIsTooShort) {
     EXPECT_EQ(refusal("off", "OFF\n4000000000 4000000000 0\n0 0 0\n"),
               ":2: 4000000000 vertices and 4000000000 faces do not fit in the 6 bytes that are left");
-    EXPECT_EQ(refusal("off", "OFF 3 4 0\n" + k_body), ":1: 3 vertices and 4 faces do not fit in the 26 bytes that are left");
+    EXPECT_EQ(refusal("off", "OFF 3 4 0\n" + k_body),
+              ":1: 3 vertices and 4 faces do not fit in the 26 bytes that are left");
     EXPECT_EQ(refusal("off", "OFF 99999999999999999999999 1 0\n" + k_body),
               ":1: 1000000000000000000 vertices and 1 face do not fit in the 26 bytes that are left");
-    EXPECT_EQ(refusal("off", "OFF 3 2 0\n0 0 0.00000000000000\n1 0 0\n0 1 0\n3 0 1 2\n"), ":6: the file ends after 1 of 2 faces");
-    EXPECT_EQ(refusal("off", "OFF 4 0 0\n0 0 0.00000000000000\n1 0 0\n0 1 0\n"), ":5: the file ends after 3 of 4 vertices");
+    EXPECT_EQ(refusal("off", "OFF 3 2 0\n0 0 0.00000000000000\n1 0 0\n0 1 0\n3 0 1 2\n"),
+              ":6: the file ends after 1 of 2 faces");
+    EXPECT_EQ(refusal("off", "OFF 4 0 0\n0 0 0.00000000000000\n1 0 0\n0 1 0\n"),
+              ":5: the file ends after 3 of 4 vertices");
     // The shortest lines that there are, without the last line end, fit exactly.
     EXPECT_EQ(refusal("off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2"), "read");
 }
@@ -86,8 +99,10 @@ TEST(ReadOff, RefusesCountsForWhichTheFileIsTooShort) {
 TEST(ReadOff, RefusesFacesThatAreWrong) {
     const std::string start = "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
     const std::string room = "\n#############\n";
-    EXPECT_EQ(refusal("off", start + "3 0 1 3"), ":5: corner 3 of the face is out of range: there are 3 vertices, counted from 0");
-    EXPECT_EQ(refusal("off", start + "3 0 1 -1"), ":5: corner -1 of the face is out of range: there are 3 vertices, counted from 0");
+    EXPECT_EQ(refusal("off", start + "3 0 1 3"),
+              ":5: corner 3 of the face is out of range: there are 3 vertices, counted from 0");
+    EXPECT_EQ(refusal("off", start + "3 0 1 -1"),
+              ":5: corner -1 of the face is out of range: there are 3 vertices, counted from 0");
     EXPECT_EQ(refusal("off", start + "3 0 1 18446744073709551616"),
               ":5: corner 18446744073709551616 of the face is out of range: there are 3 vertices, counted from 0");
     EXPECT_EQ(refusal("off", start + "3 0 1 1.5"), ":5: '1.5' is not a corner");
@@ -99,9 +114,11 @@ TEST(ReadOff, RefusesFacesThatAreWrong) {
 }
 
 TEST(ReadOff, RefusesVerticesThatAreWrong) {
-    EXPECT_EQ(refusal("off", "OFF 3 1 0\n0 0\n1 0 0\n0 1 0 0\n3 0 1 2\n"), ":2: the vertex has 2 numbers: 3 are expected");
+    EXPECT_EQ(refusal("off", "OFF 3 1 0\n0 0\n1 0 0\n0 1 0 0\n3 0 1 2\n"),
+              ":2: the vertex has 2 numbers: 3 are expected");
     EXPECT_EQ(refusal("off", "OFF 3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 0 0\n"), ":3: coordinate 'nan' is not finite");
-    EXPECT_EQ(refusal<float>("off", "OFF 3 1 0\n0 0 0\n1 1e39 0\n0 1 0\n3 0 0 0\n"), ":3: coordinate '1e39' does not fit in float");
+    EXPECT_EQ(refusal<float>("off", "OFF 3 1 0\n0 0 0\n1 1e39 0\n0 1 0\n3 0 0 0\n"),
+              ":3: coordinate '1e39' does not fit in float");
 }
 
 }  // namespace

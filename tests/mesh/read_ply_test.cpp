@@ -23,8 +23,8 @@ std::string text_ply(const std::string& elements, const std::string& rows) {
 template <class Number>
 std::string with_last_x(const std::string& type, Number x, std::endian order = std::endian::little) {
     std::string bytes = "ply\nformat binary_" + std::string(order == std::endian::big ? "big" : "little") +
-                        "_endian 1.0\nelement vertex 3\nproperty " + type +
-                        " x\nproperty uchar y\nproperty uchar z\n" + k_face + "end_header\n";
+                        "_endian 1.0\nelement vertex 3\nproperty " + type + " x\nproperty uchar y\nproperty uchar z\n" +
+                        k_face + "end_header\n";
     for (int i = 0; i < 3; ++i) {
         put(bytes, i == 2 ? x : Number(i), order);
         put(bytes, std::uint8_t{0});
@@ -64,11 +64,12 @@ TEST(ReadPly, ReadsBothByteOrdersAndPassesOverTheRest) {
 }
 
 TEST(ReadPly, PassesOverOtherPropertiesInText) {
-    const auto mesh = read("ply", text_ply("comment a b c\nobj_info none\nelement material 1\nproperty list uchar float values\n"
-                                           "element vertex 3\nproperty uchar red\nproperty float y\nproperty list int int marks\n"
-                                           "property double x\nproperty int z\nelement face 1\nproperty uchar flag\n"
-                                           "property list uint8 uint32 vertex_index\nproperty list uchar float texcoord\n",
-                                           "2 nan 1e999\n9 1 0 2 3\n9 4 2 7 7 5 6\n9 7 1 7 8 9\n0 3 0 1 2 6 0 0 1 0 1 1\n"));
+    const auto mesh =
+        read("ply", text_ply("comment a b c\nobj_info none\nelement material 1\nproperty list uchar float values\n"
+                             "element vertex 3\nproperty uchar red\nproperty float y\nproperty list int int marks\n"
+                             "property double x\nproperty int z\nelement face 1\nproperty uchar flag\n"
+                             "property list uint8 uint32 vertex_index\nproperty list uchar float texcoord\n",
+                             "2 nan 1e999\n9 1 0 2 3\n9 4 2 7 7 5 6\n9 7 1 7 8 9\n0 3 0 1 2 6 0 0 1 0 1 1\n"));
     EXPECT_EQ(mesh.positions[1], Vec3<double>(5, 4, 6));
     EXPECT_EQ(mesh.triangles, (std::vector<IndexTriple>{{0, 1, 2}}));
 }
@@ -104,7 +105,9 @@ TEST(ReadPly, RoundsToFloatOnceAndRefusesWhatDoesNotFit) {
     EXPECT_EQ(read<float>("ply", with_last_x("uint", 16777219U)).positions[2][0], 16777220.0F);
     const double infinity = std::numeric_limits<double>::infinity();
     // The three vertices start where the header ends, 10 bytes each.
-    const auto at = [](const std::string& file) { return ": byte " + std::to_string(file.find("end_header\n") + 11 + 20); };
+    const auto at = [](const std::string& file) {
+        return ": byte " + std::to_string(file.find("end_header\n") + 11 + 20);
+    };
     const std::string huge = with_last_x("double", -1e39);
     EXPECT_EQ(refusal<float>("ply", huge), at(huge) + ": coordinate -9.9999999999999994e+38 does not fit in float");
     EXPECT_EQ(refusal<double>("ply", huge), "read");
@@ -116,8 +119,9 @@ TEST(ReadPly, RoundsToFloatOnceAndRefusesWhatDoesNotFit) {
 
 TEST(ReadPly, TakesEveryTypeOfCorner) {
     const auto file = [](const std::string& types, auto length, auto corner) {
-        std::string bytes = "ply\nformat binary_big_endian 1.0\nelement face 1\nproperty list " + types +
-                            " vertex_indices\nelement vertex 3\nproperty char x\nproperty char y\nproperty char z\nend_header\n";
+        std::string bytes =
+            "ply\nformat binary_big_endian 1.0\nelement face 1\nproperty list " + types +
+            " vertex_indices\nelement vertex 3\nproperty char x\nproperty char y\nproperty char z\nend_header\n";
         put(bytes, length, std::endian::big);
         for (int i = 0; i < 3; ++i) {
             put(bytes, static_cast<decltype(corner)>(corner - static_cast<decltype(corner)>(i)), std::endian::big);
@@ -133,19 +137,22 @@ TEST(ReadPly, TakesEveryTypeOfCorner) {
     EXPECT_EQ(read("ply", file("uint uint", std::uint32_t{3}, std::uint32_t{2})).triangles, expected);
     const auto start = [](const std::string& bytes) { return bytes.find("end_header\n") + 11; };
     std::string bytes = file("uchar int", std::uint8_t{3}, std::int32_t{1});
-    EXPECT_EQ(refusal("ply", bytes), ": byte " + std::to_string(start(bytes) + 9) +
-                                         ": corner -1 of the face is out of range: there are 3 vertices, counted from 0");
+    EXPECT_EQ(refusal("ply", bytes),
+              ": byte " + std::to_string(start(bytes) + 9) +
+                  ": corner -1 of the face is out of range: there are 3 vertices, counted from 0");
     bytes = file("uchar uint", std::uint8_t{3}, std::uint32_t{3});
-    EXPECT_EQ(refusal("ply", bytes), ": byte " + std::to_string(start(bytes) + 1) +
-                                         ": corner 3 of the face is out of range: there are 3 vertices, counted from 0");
+    EXPECT_EQ(refusal("ply", bytes),
+              ": byte " + std::to_string(start(bytes) + 1) +
+                  ": corner 3 of the face is out of range: there are 3 vertices, counted from 0");
     bytes = file("char int", std::int8_t{-1}, std::int32_t{2});
     EXPECT_EQ(refusal("ply", bytes), ": byte " + std::to_string(start(bytes)) + ": a list can't have -1 numbers");
     bytes = file("uchar int", std::uint8_t{2}, std::int32_t{2});
-    EXPECT_EQ(refusal("ply", bytes), ": byte " + std::to_string(start(bytes)) + ": the face has 2 corners: at least 3 are needed");
+    EXPECT_EQ(refusal("ply", bytes),
+              ": byte " + std::to_string(start(bytes)) + ": the face has 2 corners: at least 3 are needed");
     bytes = file("uchar int", std::uint8_t{200}, std::int32_t{2});
     bytes.replace(start(bytes) + 13, 9, std::string(9, '\0'));
-    EXPECT_EQ(refusal("ply", bytes),
-              ": byte " + std::to_string(bytes.size()) + ": the file ends inside row 0 of the 1 of element 'face', counted from 0");
+    EXPECT_EQ(refusal("ply", bytes), ": byte " + std::to_string(bytes.size()) +
+                                         ": the file ends inside row 0 of the 1 of element 'face', counted from 0");
 }
 
 TEST(ReadPly, HeaderLinesMayEndInThreeWays) {
@@ -159,8 +166,9 @@ TEST(ReadPly, HeaderLinesMayEndInThreeWays) {
         EXPECT_EQ(read("ply", header + bytes.substr(header_end)).positions[2][0], 10.0);
     }
     // The body may begin with a byte that looks like the second half of a line end.
-    std::string bytes = "ply\rformat binary_little_endian 1.0\relement vertex 3\rproperty char x\rproperty char y\rproperty char z\r"
-                        "element face 1\rproperty list char char vertex_indices\rend_header\r";
+    std::string bytes =
+        "ply\rformat binary_little_endian 1.0\relement vertex 3\rproperty char x\rproperty char y\rproperty char z\r"
+        "element face 1\rproperty list char char vertex_indices\rend_header\r";
     bytes += std::string("\n\0\0\1\0\0\0\1\0\3\0\1\2", 13);
     EXPECT_EQ(read("ply", bytes).positions[0][0], 10.0);
     EXPECT_EQ(refusal("ply", "ply\rformat odd 1.0\r"), ":2: format 'odd' is not known");
@@ -172,7 +180,9 @@ TEST(ReadPly, LeavesAloneWhatFollowsTheLastRow) {
 }
 
 TEST(ReadPly, RefusesHeadersThatAreWrong) {
-    const auto header = [](const std::string& lines) { return refusal("ply", "ply\nformat ascii 1.0\n" + lines + "end_header\n" + k_rows); };
+    const auto header = [](const std::string& lines) {
+        return refusal("ply", "ply\nformat ascii 1.0\n" + lines + "end_header\n" + k_rows);
+    };
     EXPECT_EQ(refusal("ply", "PLY\n"), ":1: begins with 'PLY', not with 'ply'");
     EXPECT_EQ(refusal("ply", "ply x\n"), ":1: the line goes on with 'x'");
     EXPECT_EQ(refusal("ply", "ply\n" + k_vertex + k_face + "end_header\n" + k_rows), ":8: the header names no format");
@@ -180,7 +190,8 @@ TEST(ReadPly, RefusesHeadersThatAreWrong) {
     EXPECT_EQ(refusal("ply", "ply\nformat binary 1.0\n"), ":2: format 'binary' is not known");
     EXPECT_EQ(refusal("ply", "ply\nformat ascii\n"), ":2: the line ends where a version is expected");
     EXPECT_EQ(refusal("ply", "ply\nformat ascii 2.0\n"), ":2: version '2.0' is not known: only 1.0 is");
-    EXPECT_EQ(refusal("ply", "ply\nformat ascii 1.0\n" + k_vertex), ":7: the file ends inside the header: there is no end_header");
+    EXPECT_EQ(refusal("ply", "ply\nformat ascii 1.0\n" + k_vertex),
+              ":7: the file ends inside the header: there is no end_header");
     EXPECT_EQ(header("elements vertex 3\n"), ":3: unknown header line 'elements'");
     EXPECT_EQ(header("element\n"), ":3: the line ends where a name is expected");
     EXPECT_EQ(header("element vertex\n"), ":3: '' is not a count");
@@ -192,7 +203,8 @@ TEST(ReadPly, RefusesHeadersThatAreWrong) {
     EXPECT_EQ(header("element vertex 3\nproperty float\n"), ":4: the line ends where a name is expected");
     EXPECT_EQ(header("element vertex 3\nproperty half x\n"), ":4: type 'half' is not known");
     EXPECT_EQ(header("element vertex 3\nproperty list uchar\n"), ":4: the line ends where a type is expected");
-    EXPECT_EQ(header("element vertex 3\nproperty list float int x\n"), ":4: the length of a list can't be a floating-point number");
+    EXPECT_EQ(header("element vertex 3\nproperty list float int x\n"),
+              ":4: the length of a list can't be a floating-point number");
     EXPECT_EQ(header("element vertex 3\nproperty float x\nproperty int x\n"), ":5: property 'x' comes twice");
 }
 
@@ -200,33 +212,45 @@ TEST(ReadPly, RefusesHeadersWithoutAMesh) {
     const auto header = [](const std::string& lines) { return refusal("ply", text_ply(lines, k_rows)); };
     EXPECT_EQ(header(k_vertex), ": holds no face");
     EXPECT_EQ(header(k_vertex + "element face 0\nproperty list uchar int vertex_indices\n"), ": holds no face");
-    EXPECT_EQ(header(k_vertex + "element tristrips 1\nproperty list int int vertex_indices\n"), ":7: triangle strips are not read");
+    EXPECT_EQ(header(k_vertex + "element tristrips 1\nproperty list int int vertex_indices\n"),
+              ":7: triangle strips are not read");
     EXPECT_EQ(header(k_face), ":3: there are faces, but no element 'vertex'");
-    EXPECT_EQ(header("element vertex 3\nproperty float x\nproperty float y\n" + k_face), ":3: element 'vertex' has no number 'z'");
+    EXPECT_EQ(header("element vertex 3\nproperty float x\nproperty float y\n" + k_face),
+              ":3: element 'vertex' has no number 'z'");
     EXPECT_EQ(header("element vertex 3\nproperty float y\nproperty float z\nproperty list int int x\n" + k_face),
               ":3: element 'vertex' has no number 'x'");
-    EXPECT_EQ(header(k_vertex + "element face 1\nproperty list uchar int corners\n"), ":7: element 'face' has no list 'vertex_indices'");
-    EXPECT_EQ(header(k_vertex + "element face 1\nproperty int vertex_indices\n"), ":7: element 'face' has no list 'vertex_indices'");
-    EXPECT_EQ(header(k_vertex + k_face + "property list uchar int vertex_index\n"), ":9: element 'face' has two lists of corners");
-    EXPECT_EQ(header(k_vertex + "element face 1\nproperty list uchar float vertex_index\n"), ":8: corners can't be floating-point numbers");
+    EXPECT_EQ(header(k_vertex + "element face 1\nproperty list uchar int corners\n"),
+              ":7: element 'face' has no list 'vertex_indices'");
+    EXPECT_EQ(header(k_vertex + "element face 1\nproperty int vertex_indices\n"),
+              ":7: element 'face' has no list 'vertex_indices'");
+    EXPECT_EQ(header(k_vertex + k_face + "property list uchar int vertex_index\n"),
+              ":9: element 'face' has two lists of corners");
+    EXPECT_EQ(header(k_vertex + "element face 1\nproperty list uchar float vertex_index\n"),
+              ":8: corners can't be floating-point numbers");
 }
 
 TEST(ReadPly, RefusesCountsForWhichTheFileIsTooShort) {
-    EXPECT_EQ(refusal("ply", text_ply("element vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n" + k_face, k_rows)),
-              ":3: 4000000000 rows of element 'vertex', of at least 6 bytes each, do not fit in the 27 that are left");
+    EXPECT_EQ(
+        refusal("ply",
+                text_ply("element vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n" + k_face,
+                         k_rows)),
+        ":3: 4000000000 rows of element 'vertex', of at least 6 bytes each, do not fit in the 27 that are left");
     EXPECT_EQ(refusal("ply", text_ply(k_vertex + "element face 2\nproperty list uchar int vertex_indices\n", k_rows)),
               ":7: 2 rows of element 'face', of at least 8 bytes each, do not fit in the 9 that are left");
-    EXPECT_EQ(refusal("ply", text_ply("element odd 1000000000000000000000\nproperty float x\n" + k_vertex + k_face, k_rows)),
-              ":3: 1000000000000000000 rows of element 'odd', of at least 2 bytes each, do not fit in the 27 that are left");
-    // Without properties a row has no bytes: nothing is wrong with any number of them, and there is nothing to loop over.
+    EXPECT_EQ(
+        refusal("ply", text_ply("element odd 1000000000000000000000\nproperty float x\n" + k_vertex + k_face, k_rows)),
+        ":3: 1000000000000000000 rows of element 'odd', of at least 2 bytes each, do not fit in the 27 that are left");
+    // Without properties a row has no bytes: nothing is wrong with any number of them, and there is nothing to loop
+    // over.
     EXPECT_EQ(refusal("ply", text_ply("element odd 1000000000000000000000\n" + k_vertex + k_face, k_rows)), "read");
     std::string bytes = binary_ply(std::endian::little);
     bytes.replace(bytes.find("face 3"), 6, "face 9");
-    EXPECT_EQ(refusal("ply", bytes), ":12: 9 rows of element 'face', of at least 21 bytes each, do not fit in the 86 that are left");
+    EXPECT_EQ(refusal("ply", bytes),
+              ":12: 9 rows of element 'face', of at least 21 bytes each, do not fit in the 86 that are left");
     bytes = binary_ply(std::endian::little);
     bytes.pop_back();
-    EXPECT_EQ(refusal("ply", bytes),
-              ": byte " + std::to_string(bytes.size()) + ": the file ends inside row 2 of the 3 of element 'face', counted from 0");
+    EXPECT_EQ(refusal("ply", bytes), ": byte " + std::to_string(bytes.size()) +
+                                         ": the file ends inside row 2 of the 3 of element 'face', counted from 0");
 }
 
 TEST(ReadPly, RefusesTextRowsThatAreWrong) {
@@ -238,9 +262,12 @@ TEST(ReadPly, RefusesTextRowsThatAreWrong) {
     EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0.000000\n\n"), ":14: the file ends after 0 of 1 row of element 'face'");
     EXPECT_EQ(rows("0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n"), ":11: coordinate 'nan' is not finite");
     EXPECT_EQ(rows("0 0 0\n1 x 0\n0 1 0\n3 0 1 2\n"), ":11: 'x' is not a number");
-    EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"), ":13: corner 3 of the face is out of range: there are 3 vertices, counted from 0");
-    EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"), ":13: corner -1 of the face is out of range: there are 3 vertices, counted from 0");
-    EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0\n3 0 1 18446744073709551616\n"), ":13: '18446744073709551616' is not an integer of at most 32 bits");
+    EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
+              ":13: corner 3 of the face is out of range: there are 3 vertices, counted from 0");
+    EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"),
+              ":13: corner -1 of the face is out of range: there are 3 vertices, counted from 0");
+    EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0\n3 0 1 18446744073709551616\n"),
+              ":13: '18446744073709551616' is not an integer of at most 32 bits");
     EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0\n3 0 1 1.0\n"), ":13: '1.0' is not an integer");
     EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0\n-3 0 1 1\n"), ":13: a list can't have -3 numbers");
     EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0\n2 0 1  \n"), ":13: the face has 2 corners: at least 3 are needed");

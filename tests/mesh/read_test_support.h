@@ -19,12 +19,13 @@
 
 namespace pierce::test {
 
-/// A file of the given bytes that lives as long as this object. Its name holds the process, since tests run side by side.
+/// A file of the given bytes that lives as long as this object. Its name holds the process, since tests run side by
+/// side.
 class TempFile {
   public:
     TempFile(std::string_view ending, std::string_view bytes)
-        : path_(std::filesystem::path(testing::TempDir()) /
-                ("pierce_read_" + std::to_string(getpid()) + "." + std::string(ending))) {
+        : path_(std::filesystem::path(testing::TempDir()) / ("pierce_read_" + std::to_string(getpid()) + "_" +
+                                                             std::to_string(++count_) + "." + std::string(ending))) {
         std::ofstream(path_, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     }
     ~TempFile() { std::filesystem::remove(path_); }
@@ -34,6 +35,7 @@ class TempFile {
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   private:
+    static inline int count_ = 0;
     std::filesystem::path path_;
 };
 
@@ -149,16 +151,22 @@ struct SmallFile {
 /// One small valid file of each kind, with as many features as fit, to be damaged.
 inline std::vector<SmallFile> small_files() {
     return {
-        {"obj", "# small\nv 0 0 0\nv 1 0 0 1.0\nvn 0 0 1\nv 1 1.5e0 0\nv 0 +1 0 \\\n 1 0 0\nusemtl a\nf 1//1 2//1 3//1\n"
-                "f -4 -3 \\\n-2 -1\r\nf 1/2/3 5 4/1\nv 2 2 2\n"},
-        {"off", "COFF # small\n4 2 0\n0 0 0 255 0 0\n1 0 0 255 0 0 255\n1 1 0 1 1 1\n\n0 1 -2.5 1 1 1\n4 0 1 2 3\n3 0 1 3 0.5 0.5 0.5\n"},
-        {"ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-                "property list uchar int extra\nelement face 2\nproperty list uchar int vertex_index\nend_header\n"
-                "0 0 0 0\n1 0 0 1 7\n1 1 0 2 7 8\n0 1 -2.5 0\n4 0 1 2 3\n3 0 1 3\n"},
+        {"obj",
+         "# small\nv 0 0 0\nv 1 0 0 1.0\nvn 0 0 1\nv 1 1.5e0 0\nv 0 +1 0 \\\n 1 0 0\nusemtl a\nf 1//1 2//1 3//1\n"
+         "f -4 -3 \\\n-2 -1\r\nf 1/2/3 5 4/1\nv 2 2 2\n"},
+        {"off",
+         "COFF # small\n4 2 0\n0 0 0 255 0 0\n1 0 0 255 0 0 255\n1 1 0 1 1 1\n\n0 1 -2.5 1 1 1\n4 0 1 2 3\n3 0 1 3 0.5 "
+         "0.5 0.5\n"},
+        {"ply",
+         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+         "property list uchar int extra\nelement face 2\nproperty list uchar int vertex_index\nend_header\n"
+         "0 0 0 0\n1 0 0 1 7\n1 1 0 2 7 8\n0 1 -2.5 0\n4 0 1 2 3\n3 0 1 3\n"},
         {"ply", binary_ply(std::endian::little)},
         {"ply", binary_ply(std::endian::big)},
-        {"stl", "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1e0 0\nendloop\nendfacet\n"
-                "endsolid one\nsolid\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 1 0 vertex 0 1 0 endloop endfacet\nendsolid\n"},
+        {"stl",
+         "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1e0 0\nendloop\nendfacet\n"
+         "endsolid one\nsolid\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 1 0 vertex 0 1 0 endloop "
+         "endfacet\nendsolid\n"},
         {"stl", binary_stl({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0})},
     };
 }

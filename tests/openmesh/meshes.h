@@ -8,17 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-// OpenMesh moves a default-constructed point into its properties; Eigen leaves one uninitialized, which GCC 12 remarks on.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 // Specializes vector_traits, which it does not include: it has to come second.
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 #include <pierce/openmesh.h>
 #include <pierce/pierce.h>

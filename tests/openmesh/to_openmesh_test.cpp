@@ -22,14 +22,8 @@ using Numbers = std::vector<std::uint32_t>;
 /// What OpenMesh says, caught while this lives, and not shown.
 class Listener {
   public:
-    Listener() {
-        omerr().disconnect(std::cerr);
-        omerr().connect(text_);
-    }
-    ~Listener() {
-        omerr().disconnect(text_);
-        omerr().connect(std::cerr);
-    }
+    Listener() = default;
+    ~Listener() { std::cerr.rdbuf(buffer_); }
     Listener(const Listener&) = delete;
     Listener& operator=(const Listener&) = delete;
     std::string text() {
@@ -39,6 +33,7 @@ class Listener {
 
   private:
     std::ostringstream text_;
+    std::streambuf* buffer_ = std::cerr.rdbuf(text_.rdbuf());  // where omerr() writes to
 };
 
 template <class Mesh, class Scalar>
