@@ -74,8 +74,16 @@ class NaiveMesh {
         for (std::uint32_t i = 0; i < corners_.size(); ++i) {
             if (apart(path, corners_[i])) continue;
             const detail::Decision decision = detail::decide(path, corners_[i], options.sides);
-            if (decision.hit && detail::fraction_at_most(path, corners_[i], options.max_fraction))
-                found.push_back({i, decision});
+            if (!decision.hit || !detail::fraction_at_most(path, corners_[i], options.max_fraction)) continue;
+            if (!options.face_mask.empty() && (faces_[i] >= options.face_mask.size() || options.face_mask[faces_[i]] == 0))
+                continue;
+            if (options.accept) {
+                const detail::Measures m = detail::measure(path, corners_[i]);
+                if (!options.accept({faces_[i], i, decision.side, decision.feature, decision.feature_index,
+                                     decision.at_start, m.fraction, {m.barycentric[0], m.barycentric[1], m.barycentric[2]}}))
+                    continue;
+            }
+            found.push_back({i, decision});
         }
         std::sort(found.begin(), found.end(), [&](const Found& x, const Found& y) {
             const int c = order(path, x.triangle, y.triangle);
