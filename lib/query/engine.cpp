@@ -13,7 +13,7 @@ namespace {
 
 template <class Scalar>
 Hit<Scalar> reported(const Scene& scene, const Path& path, const Candidate& candidate) {
-    return report<Scalar>(path, scene.corners(candidate.triangle), scene.prepared[candidate.triangle].normal,
+    return report<Scalar>(path, scene.corners(candidate.triangle), scene.prepared[candidate.triangle],
                           candidate.decision, scene.face_of(candidate.triangle), candidate.triangle);
 }
 
@@ -28,7 +28,7 @@ void place(const Scene& scene, Hit<Scalar>& hit, const Path& path, std::span<con
         traverse(scene, {path.from, point}, whole, counters, any);
         return !any.found();
     };
-    const int tries = verify(hit, path, scene.corners(hit.triangle), scene.prepared[hit.triangle].normal, clear);
+    const int tries = verify(hit, path, scene.corners(hit.triangle), scene.prepared[hit.triangle], clear);
     counters.retreats += static_cast<std::uint64_t>(tries);
 }
 

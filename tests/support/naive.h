@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include <exact/planes.h>
 #include <pierce/hit.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
@@ -97,8 +96,8 @@ class NaiveMesh {
     [[nodiscard]] Hit<Scalar> reported(const detail::Path& path, const std::vector<Found>& found, std::size_t i,
                                        const QueryOptions& options) const {
         const std::uint32_t triangle = found[i].triangle;
-        const detail::Point normal = detail::exact_planes(corners_[triangle]).normal;
-        Hit<Scalar> hit = detail::report<Scalar>(path, corners_[triangle], normal, found[i].decision, faces_[triangle],
+        const detail::PreparedTriangle prepared = detail::prepare(corners_[triangle]);
+        Hit<Scalar> hit = detail::report<Scalar>(path, corners_[triangle], prepared, found[i].decision, faces_[triangle],
                                                  triangle);
         QueryOptions whole = options;
         whole.max_fraction = 1;
@@ -111,7 +110,7 @@ class NaiveMesh {
             }
             return true;
         };
-        detail::verify(hit, path, corners_[triangle], normal, clear);
+        detail::verify(hit, path, corners_[triangle], prepared, clear);
         return hit;
     }
 
