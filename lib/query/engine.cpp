@@ -1,56 +1,23 @@
-// The queries: one traversal each, with the collector that makes the difference, and the verified point of what is reported.
+// The queries: one traversal each, with the collector that makes the difference.
 #include <query/engine.h>
 
 #include <limits>
 
-#include <query/collectors.h>
-#include <query/report.h>
-#include <query/traverse.h>
+#include <query/answer.h>
 
 namespace pierce::detail {
-
-namespace {
-
-template <class Scalar>
-Hit<Scalar> reported(const Scene& scene, const Path& path, const Candidate& candidate) {
-    return report<Scalar>(path, scene.corners(candidate.triangle), scene.prepared[candidate.triangle],
-                          candidate.decision, scene.face_of(candidate.triangle), candidate.triangle);
-}
-
-// Sets the verified point. `before` are hits that lie strictly before this one, and so on the way to any point near it.
-template <class Scalar>
-void place(const Scene& scene, Hit<Scalar>& hit, const Path& path, std::span<const Hit<Scalar>> before,
-           const QueryOptions& options, QueryCounters& counters) {
-    QueryOptions whole = options;
-    whole.max_fraction = 1;  // a nearer limit was meant for the caller's own segment
-    const auto clear = [&](const Point& point) {
-        Any<Scalar> any(hit, before);  // verify() has seen to the hit's own triangle
-        traverse(scene, {path.from, point}, whole, counters, any);
-        return !any.found();
-    };
-    const int tries = verify(hit, path, scene.corners(hit.triangle), scene.prepared[hit.triangle], clear);
-    counters.retreats += static_cast<std::uint64_t>(tries);
-}
-
-}  // namespace
 
 template <class Scalar>
 std::optional<Hit<Scalar>> first_hit(const Scene& scene, const Segment<Scalar>& segment, const QueryOptions& options,
                                      QueryCounters& counters) {
-    const Path path = to_path(segment);
-    First first(scene, path, counters);
-    traverse(scene, path, options, counters, first);
-    if (!first.found()) return std::nullopt;
-    Hit<Scalar> hit = reported<Scalar>(scene, path, first.best());
-    place<Scalar>(scene, hit, path, {}, options, counters);
-    return hit;
+    return first_answer<Certified, Scalar>(scene, to_path(segment), options, counters);
 }
 
 template <class Scalar>
 bool any_hit(const Scene& scene, const Segment<Scalar>& segment, const QueryOptions& options,
              QueryCounters& counters) {
     Any<Scalar> any;
-    traverse(scene, to_path(segment), options, counters, any);
+    traverse<Certified>(scene, to_path(segment), options, counters, any);
     return any.found();
 }
 
@@ -59,14 +26,14 @@ std::size_t all_hits(const Scene& scene, const Segment<Scalar>& segment, std::sp
                      const QueryOptions& options, QueryCounters& counters) {
     const Path path = to_path(segment);
     All<Scalar> all(scene, path, out, counters);
-    traverse(scene, path, options, counters, all);
+    traverse<Certified>(scene, path, options, counters, all);
     std::size_t strictly_before = 0;  // how many of the hits have a smaller fraction than the one at hand
     for (std::size_t i = 0; i < all.kept_count(); ++i) {
         const Candidate candidate = all.kept(i);
         if (i > 0 && compare_fractions(path, scene.corners(out[i - 1].triangle), scene.corners(candidate.triangle)) < 0)
             strictly_before = i;
         out[i] = reported<Scalar>(scene, path, candidate);
-        place<Scalar>(scene, out[i], path, out.first(strictly_before), options, counters);
+        place<Certified, Scalar>(scene, out[i], path, out.first(strictly_before), options, counters);
     }
     return all.total();
 }

@@ -73,7 +73,7 @@ std::vector<FaceVerdict> explain(const Scene& scene, const Segment<Scalar>& segm
                                  QueryCounters& counters) {
     const Path path = to_path(segment);
     First first(scene, path, counters);
-    traverse(scene, path, options, counters, first);
+    traverse<Certified>(scene, path, options, counters, first);
 
     std::vector<std::uint32_t> near;
     visit_near(scene, path, [] { return 1.0; }, counters,

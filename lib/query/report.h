@@ -81,20 +81,20 @@ template <class Scalar>
     return point;
 }
 
-/// Sets `fraction` and `point` of a hit so that the segment from -> point has no hit: none of the hit's own triangle, of which
-/// the point stays on the near side, and none of any other, which `clear(point)` says. `from` itself needs no proof. Returns how
-/// many points were tried and not taken.
+/// Sets `fraction` and `point` of a hit so that the segment from -> point has no hit: none of the hit's own triangle, as the point
+/// stays on the near side of its plane or on it (`side(point)`), and none of any other, which `clear(point)` says. `from` itself
+/// needs no proof. Returns how many points were tried and not taken.
 ///
 /// The rounded point of a true hit lies behind the face about half of the time. The first to be tried is that point; then, along
 /// the segment, one moved back by as much as rounding can have moved the point through the plane; then four times
 /// as far each time.
-template <class Scalar, class Clear>
-int verify(Hit<Scalar>& hit, const Path& path, const Corners& corners, const PreparedTriangle& prepared, Clear&& clear) {
+template <class Scalar, class Side, class Clear>
+int verify(Hit<Scalar>& hit, const Path& path, const Point& normal, Side&& side, Clear&& clear) {
     double rate = 0;   // of the distance from the plane, in units of |normal|, along the whole segment
     double noise = 0;  // what rounding a point's coordinates can do to that distance
     for (std::size_t k = 0; k < 3; ++k) {
-        rate += prepared.normal[k] * (path.to[k] / 2 - path.from[k] / 2);
-        noise += std::abs(prepared.normal[k]) * std::max(std::abs(path.from[k]), std::abs(path.to[k]));
+        rate += normal[k] * (path.to[k] / 2 - path.from[k] / 2);
+        noise += std::abs(normal[k]) * std::max(std::abs(path.from[k]), std::abs(path.to[k]));
     }
     double back = noise * static_cast<double>(std::numeric_limits<Scalar>::epsilon()) / std::abs(2 * rate);
     if (!(back > 0)) back = 1;
@@ -110,9 +110,7 @@ int verify(Hit<Scalar>& hit, const Path& path, const Corners& corners, const Pre
         hit.point = point_at(path, hit.fraction);
         const Point point = to_point(hit.point);
         if (point == path.from) break;
-        int side = certain_side(prepared, point);
-        if (side == 0) side = side_of(corners, point);
-        if (side * outside >= 0 && clear(point)) return tries;
+        if (side(point) * outside >= 0 && clear(point)) return tries;
         fraction = exact - back;
         back *= 4;
     }

@@ -16,15 +16,17 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
     const CollisionMesh<Scalar> mesh(soup.view());
     Random random(17);
     std::array<Hit<Scalar>, 4> hits;
-    const Vec3<double> centre(offset, -offset, offset);
     for (int i = 0; i < 20'000; ++i) {
         const IndexTriple& t = soup.triangles[random.below(soup.triangles.size())];
         const Vec3<double> w = random.chance(0.3) ? Vec3<double>(0.5, 0.5, 0) : random.weights();
         Vec3<double> target = Vec3<double>::Zero();
         for (int k = 0; k < 3; ++k)
             target += w[k] * soup.positions[t[static_cast<std::size_t>(k)]].template cast<double>();
-        const Vec3<double> d = random.in_cube() * scale * (random.chance(0.5) ? 0.01 : 3);
-        const Segment<Scalar> segment{(target - d).template cast<Scalar>(), (target + random.unit() * d).template cast<Scalar>()};
+        // One random number a statement: compilers differ in the order of operands.
+        const double length = scale * (random.chance(0.5) ? 0.01 : 3);
+        const Vec3<double> d = length * random.in_cube();
+        const double beyond = random.unit();
+        const Segment<Scalar> segment{(target - d).template cast<Scalar>(), (target + beyond * d).template cast<Scalar>()};
         const std::size_t total = mesh.all_hits(segment, hits, {.sides = Sides::both});
         hash.add(total);
         for (std::size_t k = 0; k < std::min(total, hits.size()); ++k) hash.add(hits[k]);

@@ -110,7 +110,8 @@ class NaiveMesh {
             }
             return true;
         };
-        detail::verify(hit, path, corners_[triangle], prepared, clear);
+        const auto side = [&](const detail::Point& point) { return detail::side_of(corners_[triangle], point); };
+        detail::verify(hit, path, prepared.normal, side, clear);
         return hit;
     }
 
