@@ -88,6 +88,7 @@ void run(const Options& options) {
 
     report.faces = soup.face_count();
     report.mesh = mesh.statistics();
+    report.odd = mesh.mesh_report();
     report.counters = answers.counters;
     report.segments = segments.size();
     report.segments_hit = answers.segments_hit;

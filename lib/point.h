@@ -23,4 +23,9 @@ template <class Scalar>
     return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
+template <class Scalar>
+[[nodiscard]] Path to_path(const Segment<Scalar>& segment) {
+    return {to_point(segment.from), to_point(segment.to)};
+}
+
 }  // namespace pierce::detail

@@ -23,8 +23,9 @@ void write_mesh(std::ostream& out, const Report& report) {
     const auto& mesh = report.mesh;
     out << "mesh      " << counted(report.faces, "face");
     if (mesh.triangles != report.faces) out << " cut into " << counted(mesh.triangles, "triangle");
-    out << ", of them " << grouped(mesh.degenerate) << " of zero area and " << counted(mesh.duplicates, "duplicate")
-        << "; " << counted(mesh.vertices, "vertex", "vertices") << '\n';
+    out << ", of them " << grouped(mesh.degenerate) << " of zero area and " << counted(report.odd.duplicates, "duplicate")
+        << "; " << counted(mesh.vertices, "vertex", "vertices") << "; "
+        << (report.odd.closed() ? "closed" : "not closed: " + counted(report.odd.border_edges, "border edge")) << '\n';
     out << "grid      " << mesh.grid_cells[0] << " x " << mesh.grid_cells[1] << " x " << mesh.grid_cells[2]
         << " cells, " << per(static_cast<double>(mesh.grid_references), mesh.triangles) << " references and "
         << per(static_cast<double>(mesh.bytes), mesh.triangles) << " bytes a triangle\n";

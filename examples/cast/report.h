@@ -11,6 +11,7 @@
 struct Report {
     std::size_t faces = 0;  ///< of the file; with polygons in it, fewer than it has triangles
     pierce::MeshStatistics mesh;
+    pierce::MeshReport odd;
     pierce::QueryCounters counters;
     std::size_t segments = 0;
     std::size_t segments_hit = 0;

@@ -7,8 +7,11 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
+#include <pierce/explain.h>
 #include <pierce/hit.h>
+#include <pierce/mesh_report.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
 #include <pierce/types.h>
@@ -21,7 +24,6 @@ struct MeshStatistics {
     std::size_t faces = 0;      ///< of the caller: different numbers in `MeshView::faces`
     std::size_t triangles = 0;
     std::size_t degenerate = 0; ///< triangles of area exactly zero: kept, and never hit
-    std::size_t duplicates = 0; ///< triangles with the same three corner positions as one before: kept
     std::array<std::uint32_t, 3> grid_cells = {0, 0, 0};
     std::size_t grid_references = 0; ///< entries of all cell lists together
     std::size_t bytes = 0;
@@ -62,6 +64,28 @@ class CollisionMesh {
     /// If the answer is empty it may be moved to `to`; otherwise to the hit's `point`, and never further.
     [[nodiscard]] std::optional<SweepHit<Scalar>> sweep(const Vec3<Scalar>& from, const Vec3<Scalar>& to,
                                                         const QueryOptions& options = {}) const noexcept;
+
+    /// How often the segment passes through the surface: +1 for each crossing from the front to the back of a face, -1 for each
+    /// from back to front. Another rule than that for hits: the ends are taken as moved by an infinitesimal step that is
+    /// the same for all queries, so that every crossing belongs to exactly one face, also through edges and vertices. On a
+    /// closed, consistently oriented mesh the result is the winding number at `to` less that at `from`. Not finite: 0.
+    [[nodiscard]] int crossings(const Segment<Scalar>& segment, QueryCounters* counters = nullptr) const noexcept;
+
+    /// How many times the surface winds around the point: 1 inside of a closed mesh whose faces look outwards, 0 outside. A point
+    /// of the surface itself is taken as moved as in `crossings`. On an open mesh the answer is that of one way out,
+    /// along an axis; see `mesh_report`. Not finite: 0.
+    [[nodiscard]] int winding_number(const Vec3<Scalar>& point, QueryCounters* counters = nullptr) const noexcept;
+
+    /// Whether the winding number is not 0.
+    [[nodiscard]] bool contains(const Vec3<Scalar>& point, QueryCounters* counters = nullptr) const noexcept;
+
+    /// Why each face near the segment is its first hit or is not, in the order of triangles. For debugging: exact arithmetic for
+    /// each face, and memory for the answer.
+    [[nodiscard]] std::vector<FaceVerdict> explain(const Segment<Scalar>& segment, const QueryOptions& options = {}) const;
+
+    /// What is odd about the mesh, and whether it can keep particles in. Computed anew by each call, in about the time of a
+    /// build.
+    [[nodiscard]] MeshReport mesh_report() const;
 
     [[nodiscard]] MeshStatistics statistics() const noexcept;
 

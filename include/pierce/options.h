@@ -4,6 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
+#include <type_traits>
 
 #include <pierce/types.h>
 
@@ -30,11 +33,53 @@ struct QueryCounters {
     std::uint64_t retreats = 0;        ///< points that had to be moved back before they were verified
 };
 
+/// A hit before it is weighed against others: what `QueryOptions::accept` is asked about.
+struct Contact {
+    std::uint32_t face;      ///< the caller's number
+    std::uint32_t triangle;
+    Sides side;              ///< front or back
+    Feature feature;
+    std::uint8_t feature_index;
+    bool at_start;
+    double fraction;         ///< within 1 ulp, not verified
+    Vec3<double> barycentric;
+};
+
+/// A reference to something that is called with a `Contact` and says whether it counts: a lambda, say, that looks up a
+/// texture. It is not owned, and must outlive the query; a temporary lambda in the call itself does.
+///
+/// It may be asked about the same face more than once, also for the shortened segment to the point that is being verified, so
+/// its answer must depend on the contact only. It must not throw.
+class Accept {
+  public:
+    Accept() = default;
+    template <class Callable>
+        requires(!std::is_same_v<std::remove_cvref_t<Callable>, Accept> &&
+                 std::is_invocable_r_v<bool, Callable&, const Contact&>)
+    Accept(Callable&& callable)
+        : callable_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
+          call_([](void* c, const Contact& contact) -> bool {
+              return (*static_cast<std::remove_reference_t<Callable>*>(c))(contact);
+          }) {}
+
+    explicit operator bool() const { return call_ != nullptr; }
+    bool operator()(const Contact& contact) const { return call_(callable_, contact); }
+
+  private:
+    void* callable_ = nullptr;
+    bool (*call_)(void*, const Contact&) = nullptr;
+};
+
+/// Every choice is applied to each hit before the first one is looked for, so what does not count hides nothing behind it.
 struct QueryOptions {
     /// The side that a segment must come from to hit a triangle.
     Sides sides = Sides::front;
     /// Only hits whose exact fraction is at most this count. NaN: no hit.
     double max_fraction = 1.0;
+    /// If it is not empty, only faces count whose number is a place in it that is not 0.
+    std::span<const std::uint8_t> face_mask = {};
+    /// If given, only hits count that it says yes to.
+    Accept accept = {};
     /// Adds up what the query went through, if given.
     QueryCounters* counters = nullptr;
 };

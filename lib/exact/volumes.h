@@ -34,6 +34,11 @@ class Volumes {
         return dot(to_ - from_, cross(before, after));
     }
 
+    [[nodiscard]] const Vector<2 * N>& normal() const { return normal_; }
+    [[nodiscard]] Vector<N> direction() const { return to_ - from_; }
+    /// From the corner before corner k to the one after it: the edge opposite to it, backwards.
+    [[nodiscard]] Vector<N> edge_against(int k) const { return corner_[(k + 1) % 3] - corner_[(k + 2) % 3]; }
+
   private:
     Vector<N> from_;
     Vector<N> to_;

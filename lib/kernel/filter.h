@@ -48,49 +48,79 @@ struct Filtered {
     double latest = 1;
 };
 
-[[nodiscard]] inline double linear(const Point& plane, const Point& x) {
-    return plane[0] * x[0] + plane[1] * x[1] + plane[2] * x[2];
-}
+/// The planes of a triangle at the ends of a path, computed, and how far they may be off. What the filter decides from, and where it
+/// is precise enough what is reported.
+class Evaluated {
+  public:
+    Evaluated(const PreparedTriangle& triangle, const Path& path) : triangle_(triangle) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            from_[k] = path.from[k] - triangle.b[k];
+            to_[k] = path.to[k] - triangle.b[k];
+            reach_ = std::max({reach_, std::abs(from_[k]), std::abs(to_[k])});
+        }
+        f0 = linear(triangle.normal, from_);
+        f1 = linear(triangle.normal, to_);
+        e = triangle.plane_error * reach_;
+    }
+
+    /// The bounds hold; false for NaN.
+    [[nodiscard]] bool in_range() const { return reach_ >= 0x1p-300 && reach_ <= 0x1p300; }
+    [[nodiscard]] double weight_c() const { return f0 * linear(triangle_.weight_c, to_) - f1 * linear(triangle_.weight_c, from_); }
+    [[nodiscard]] double weight_a() const { return f0 * linear(triangle_.weight_a, to_) - f1 * linear(triangle_.weight_a, from_); }
+    [[nodiscard]] double weight_c_error() const { return triangle_.weight_c_error * (reach_ * reach_); }
+    [[nodiscard]] double weight_a_error() const { return triangle_.weight_a_error * (reach_ * reach_); }
+
+    double f0;
+    double f1;
+    double e;
+
+  private:
+    static double linear(const Point& plane, const Point& x) {
+        return plane[0] * x[0] + plane[1] * x[1] + plane[2] * x[2];
+    }
+
+    const PreparedTriangle& triangle_;
+    Point from_{};
+    Point to_{};
+    double reach_ = 0;
+};
 
 /// Never wrong when it says hit or miss: strict inequalities between exact values are proved, so neither an edge nor a plane is
 /// touched, and the closed rule and every perturbation of it agree.
 [[nodiscard]] inline Filtered filter(const PreparedTriangle& triangle, const Path& path, Sides sides) {
-    Point from;
-    Point to;
-    double reach = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        from[k] = path.from[k] - triangle.b[k];
-        to[k] = path.to[k] - triangle.b[k];
-        reach = std::max({reach, std::abs(from[k]), std::abs(to[k])});
-    }
-    if (!(reach >= 0x1p-300 && reach <= 0x1p300)) return {Verdict::doubtful};
-
-    const double f0 = linear(triangle.normal, from);
-    const double f1 = linear(triangle.normal, to);
-    const double e = triangle.plane_error * reach;
-    const bool front = sides != Sides::back && !(f0 < -e) && !(f1 > e);
-    const bool back = sides != Sides::front && !(f0 > e) && !(f1 < -e);
+    const Evaluated v(triangle, path);
+    if (!v.in_range()) return {Verdict::doubtful};
+    const bool front = sides != Sides::back && !(v.f0 < -v.e) && !(v.f1 > v.e);
+    const bool back = sides != Sides::front && !(v.f0 > v.e) && !(v.f1 < -v.e);
     if (!front && !back) return {Verdict::miss};
     if (front && back) return {Verdict::doubtful};  // both ends may lie in the plane
 
     const double sign = front ? 1 : -1;
-    const double d = sign * (f0 - f1);
+    const double e = v.e;
+    const double d = sign * (v.f0 - v.f1);
     if (!(d > 3 * e)) return {Verdict::doubtful};
-    const double wc = sign * (f0 * linear(triangle.weight_c, to) - f1 * linear(triangle.weight_c, from));
-    const double ec = triangle.weight_c_error * (reach * reach);
+    const double wc = sign * v.weight_c();
+    const double ec = v.weight_c_error();
     if (wc < -ec) return {Verdict::miss};
-    const double wa = sign * (f0 * linear(triangle.weight_a, to) - f1 * linear(triangle.weight_a, from));
-    const double ea = triangle.weight_a_error * (reach * reach);
+    const double wa = sign * v.weight_a();
+    const double ea = v.weight_a_error();
     if (wa < -ea) return {Verdict::miss};
     const double wb = (d - wc) - wa;
     const double eb = 4 * e + 1.25 * (ec + ea);
     if (wb < -eb) return {Verdict::miss};
 
-    if (!(sign * f0 > e && sign * f1 < -e && wc > ec && wa > ea && wb > eb)) return {Verdict::doubtful};
+    if (!(sign * v.f0 > e && sign * v.f1 < -e && wc > ec && wa > ea && wb > eb)) return {Verdict::doubtful};
     // F0 / D, with F0 wrong by e and D by 3e; three roundings on either side.
-    const double earliest = (sign * f0 - e) / (d + 3 * e) * (1 - 0x1p-49);
-    const double latest = (sign * f0 + e) / (d - 3 * e) * (1 + 0x1p-49);
+    const double earliest = (sign * v.f0 - e) / (d + 3 * e) * (1 - 0x1p-49);
+    const double latest = (sign * v.f0 + e) / (d - 3 * e) * (1 + 0x1p-49);
     return {Verdict::hit, front ? Sides::front : Sides::back, earliest, latest};
+}
+
+/// The side of its plane that a point is on, if that is certain: +1 or -1; else 0.
+[[nodiscard]] inline int certain_side(const PreparedTriangle& triangle, const Point& point) {
+    const Evaluated v(triangle, {point, point});
+    if (!v.in_range()) return 0;
+    return v.f0 > v.e ? 1 : v.f0 < -v.e ? -1 : 0;
 }
 
 }  // namespace pierce::detail

@@ -1,34 +1,15 @@
 // What a mesh must be before anything is built from it.
 #include <mesh/check_mesh.h>
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <string>
-#include <unordered_map>
-#include <unordered_set>
 
 namespace pierce::detail {
 
 namespace {
 
 constexpr std::size_t k_most = std::numeric_limits<std::uint32_t>::max() - 1;
-
-// A few rounds of multiply and shift (as in splitmix64, Steele et al. 2014): coordinates differ in few bits.
-struct HashWords {
-    template <class Words>
-    std::size_t operator()(const Words& words) const {
-        std::uint64_t h = 0;
-        for (const auto& word : words) {
-            h += static_cast<std::uint64_t>(word) + 0x9e3779b97f4a7c15U;
-            h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9U;
-            h = (h ^ (h >> 27)) * 0x94d049bb133111ebU;
-            h ^= h >> 31;
-        }
-        return static_cast<std::size_t>(h);
-    }
-};
 
 }  // namespace
 
@@ -53,26 +34,5 @@ void check_mesh(const MeshView<Scalar>& mesh) {
 
 template void check_mesh(const MeshView<float>&);
 template void check_mesh(const MeshView<double>&);
-
-std::size_t count_duplicates(std::span<const Point> positions, std::span<const IndexTriple> triangles) {
-    // Vertices that repeat a position are first given one number.
-    std::unordered_map<std::array<std::uint64_t, 3>, std::uint32_t, HashWords> first_at;
-    first_at.reserve(positions.size());
-    std::vector<std::uint32_t> same(positions.size());
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-        std::array<std::uint64_t, 3> key{};
-        for (std::size_t k = 0; k < 3; ++k) key[k] = std::bit_cast<std::uint64_t>(positions[v][k] + 0.0);  // -0 is 0
-        same[v] = first_at.try_emplace(key, static_cast<std::uint32_t>(v)).first->second;
-    }
-    std::unordered_set<IndexTriple, HashWords> seen;
-    seen.reserve(triangles.size());
-    std::size_t duplicates = 0;
-    for (const IndexTriple& triangle : triangles) {
-        IndexTriple key = {same[triangle[0]], same[triangle[1]], same[triangle[2]]};
-        std::sort(key.begin(), key.end());
-        if (!seen.insert(key).second) ++duplicates;
-    }
-    return duplicates;
-}
 
 }  // namespace pierce::detail

@@ -17,6 +17,7 @@ class First {
         : scene_(scene), path_(path), counters_(counters) {}
 
     [[nodiscard]] double limit() const { return best_.latest; }
+    [[nodiscard]] bool wants(std::uint32_t) const { return true; }
     void add(const Candidate& candidate, const Visit&) {
         if (found_ && !comes_before(scene_, path_, candidate, best_, counters_)) return;
         best_ = candidate;
@@ -41,12 +42,12 @@ class Any {
     Any(const Hit<Scalar>& own, std::span<const Hit<Scalar>> passed) : own_(&own), passed_(passed) {}
 
     [[nodiscard]] double limit() const { return found_ ? -1 : 1; }
-    void add(const Candidate& candidate, const Visit&) {
-        if (own_ != nullptr && candidate.triangle == own_->triangle) return;
-        for (const Hit<Scalar>& hit : passed_)
-            if (hit.triangle == candidate.triangle) return;
-        found_ = true;
+    [[nodiscard]] bool wants(std::uint32_t triangle) const {
+        if (found_ || (own_ != nullptr && triangle == own_->triangle)) return false;
+        return std::none_of(passed_.begin(), passed_.end(),
+                            [triangle](const Hit<Scalar>& hit) { return hit.triangle == triangle; });
     }
+    void add(const Candidate&, const Visit&) { found_ = true; }
     [[nodiscard]] bool found() const { return found_; }
 
   private:
@@ -64,6 +65,7 @@ class All {
         : scene_(scene), path_(path), out_(out), counters_(counters) {}
 
     [[nodiscard]] double limit() const { return 1; }
+    [[nodiscard]] bool wants(std::uint32_t) const { return true; }
     void add(const Candidate& candidate, const Visit& visit) {
         const Corners corners = scene_.corners(candidate.triangle);
         if (!visit.first_with(scene_.grid.shape().range(box_of(corners)))) return;

@@ -7,15 +7,41 @@
 
 #include <exact/decide.h>
 #include <exact/fraction.h>
+#include <kernel/filter.h>
 #include <pierce/hit.h>
 
 namespace pierce::detail {
 
-/// Everything but `fraction` and `point`. `normal` is that of `Planes`, rounded once from the exact one.
+/// The values of a hit before they are rounded to float, from the filter's numbers, if those are good enough: the fraction within
+/// 2^-30 of itself, the weights within 2^-28 of 1. That is below a tenth of a float's last place.
+[[nodiscard]] inline bool measure_for_float(const PreparedTriangle& triangle, const Path& path, Measures& measures) {
+    const Evaluated v(triangle, path);
+    const double sign = v.f0 > v.f1 ? 1 : -1;
+    const double d = sign * (v.f0 - v.f1);
+    const double f0 = sign * v.f0;
+    const double wc = sign * v.weight_c();
+    const double wa = sign * v.weight_a();
+    const double ec = v.weight_c_error();
+    const double ea = v.weight_a_error();
+    // x / D with x off by ex and D by 3e (filter.h, 2) is off by less than (ex + 3e) / (D - 3e), as x <= D.
+    const double least = d - 3 * v.e;
+    if (!(v.in_range() && least > 0 && 4 * v.e <= 0x1p-30 * f0 * (least / d))) return false;
+    if (!(7 * v.e + 1.25 * (ec + ea) <= 0x1p-28 * least)) return false;
+    const auto share = [d](double weight) { return std::clamp(weight / d, 0.0, 1.0); };
+    measures = {f0 / d, {share(wa), share((d - wc) - wa), share(wc)}};
+    return true;
+}
+
+/// Everything but `fraction` and `point`.
 template <class Scalar>
-[[nodiscard]] Hit<Scalar> report(const Path& path, const Corners& corners, const Point& normal, const Decision& decision,
-                                 std::uint32_t face, std::uint32_t triangle) {
-    const Measures measures = measure(path, corners);
+[[nodiscard]] Hit<Scalar> report(const Path& path, const Corners& corners, const PreparedTriangle& prepared,
+                                 const Decision& decision, std::uint32_t face, std::uint32_t triangle) {
+    Measures measures{};
+    // On an edge or at the start some values are exactly 0, which only exact arithmetic gives.
+    const bool plain = decision.feature == Feature::face && !decision.at_start;
+    if (!(std::is_same_v<Scalar, float> && plain && measure_for_float(prepared, path, measures)))
+        measures = measure(path, corners);
+    const Point& normal = prepared.normal;
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     Hit<Scalar> hit{};
     for (int k = 0; k < 3; ++k) {
@@ -55,15 +81,15 @@ template <class Scalar>
     return point;
 }
 
-/// Sets `fraction` and `point` of a hit so that the segment from -> point has no hit: none of the hit's own triangle, of which
-/// the point stays on the near side, and none of any other, which `clear(point)` says. `from` itself needs no proof. Returns how
-/// many points were tried and not taken.
+/// Sets `fraction` and `point` of a hit so that the segment from -> point has no hit: none of the hit's own triangle, as the point
+/// stays on the near side of its plane or on it (`side(point)`), and none of any other, which `clear(point)` says. `from` itself
+/// needs no proof. Returns how many points were tried and not taken.
 ///
 /// The rounded point of a true hit lies behind the face about half of the time. The first to be tried is that point; then, along
 /// the segment, one moved back by as much as rounding can have moved the point through the plane; then four times
 /// as far each time.
-template <class Scalar, class Clear>
-int verify(Hit<Scalar>& hit, const Path& path, const Corners& corners, const Point& normal, Clear&& clear) {
+template <class Scalar, class Side, class Clear>
+int verify(Hit<Scalar>& hit, const Path& path, const Point& normal, Side&& side, Clear&& clear) {
     double rate = 0;   // of the distance from the plane, in units of |normal|, along the whole segment
     double noise = 0;  // what rounding a point's coordinates can do to that distance
     for (std::size_t k = 0; k < 3; ++k) {
@@ -84,7 +110,7 @@ int verify(Hit<Scalar>& hit, const Path& path, const Corners& corners, const Poi
         hit.point = point_at(path, hit.fraction);
         const Point point = to_point(hit.point);
         if (point == path.from) break;
-        if (side_of(corners, point) * outside >= 0 && clear(point)) return tries;
+        if (side(point) * outside >= 0 && clear(point)) return tries;
         fraction = exact - back;
         back *= 4;
     }

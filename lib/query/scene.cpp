@@ -19,15 +19,6 @@ std::size_t count_faces(const Scene& scene) {
 
 }  // namespace
 
-Box box_of(const Corners& corners) {
-    Box box{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        box.low[k] = std::min({corners[0][k], corners[1][k], corners[2][k]});
-        box.high[k] = std::max({corners[0][k], corners[1][k], corners[2][k]});
-    }
-    return box;
-}
-
 std::size_t Scene::bytes() const {
     return sizeof(Scene) + positions.capacity() * sizeof(Point) + triangles.capacity() * sizeof(IndexTriple) +
            faces.capacity() * sizeof(std::uint32_t) + prepared.capacity() * sizeof(PreparedTriangle) + grid.bytes();
@@ -62,7 +53,6 @@ Scene make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options) {
                                  : std::max<std::size_t>(192 * boxes.size(), std::size_t{1} << 16);
     scene.grid = Grid(boxes, numbers, {options.grid_cells, most});
     scene.face_count = count_faces(scene);
-    scene.duplicates = count_duplicates(scene.positions, scene.triangles);
     return scene;
 }
 

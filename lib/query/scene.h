@@ -1,6 +1,7 @@
 // A mesh made ready: what all queries read, and nothing that they write.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <grid/grid.h>
@@ -18,7 +19,6 @@ struct Scene {
     Grid grid;                                 ///< lists the triangles that can be hit: all but those of area zero
     std::size_t face_count = 0;
     std::size_t degenerate = 0;
-    std::size_t duplicates = 0;
 
     [[nodiscard]] Corners corners(std::uint32_t triangle) const {
         const IndexTriple& t = triangles[triangle];
@@ -30,10 +30,26 @@ struct Scene {
     [[nodiscard]] std::size_t bytes() const;
 };
 
-[[nodiscard]] Box box_of(const Corners& corners);
+[[nodiscard]] inline Box box_of(const Corners& corners) {
+    Box box{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.low[k] = std::min({corners[0][k], corners[1][k], corners[2][k]});
+        box.high[k] = std::max({corners[0][k], corners[1][k], corners[2][k]});
+    }
+    return box;
+}
 
-/// Checks the mesh (throws `MeshError`), copies it, and prepares triangles and grid.
+[[nodiscard]] inline Box box_of(const Path& path) {
+    Box box{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.low[k] = std::min(path.from[k], path.to[k]);
+        box.high[k] = std::max(path.from[k], path.to[k]);
+    }
+    return box;
+}
+
+/// Checks the mesh (throws `MeshError`), copies it, and prepares triangles and grid. Not inlined: see engine.h.
 template <class Scalar>
-[[nodiscard]] Scene make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options);
+[[nodiscard]] [[gnu::noinline]] Scene make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options);
 
 }  // namespace pierce::detail

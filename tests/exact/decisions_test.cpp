@@ -19,14 +19,6 @@ struct Tally {
     std::int64_t undefined = 0;  // for CGAL
 };
 
-std::string describe(const Pair& pair) {
-    std::ostringstream out;
-    out << std::hexfloat;
-    for (const detail::Point& p : {pair.path.from, pair.path.to, pair.corners[0], pair.corners[1], pair.corners[2]})
-        out << p[0] << ' ' << p[1] << ' ' << p[2] << "  ";
-    return out.str();
-}
-
 // What the traversal does with one triangle: the filter, and the exact room where that is in doubt. Both must agree with the judge.
 void check(const Pair& pair, Sides sides, bool truth, Tally& tally) {
     const Decision decision = detail::decide(pair.path, pair.corners, sides);

@@ -136,7 +136,7 @@ TEST(Contract, ties_go_to_the_smallest_face) {
         EXPECT_EQ(all[0].face, 5U);
         EXPECT_EQ(all[0].triangle, 4U);
         EXPECT_EQ(all[4].face, 40U);
-        EXPECT_EQ(mesh.statistics().duplicates, 1U);
+        EXPECT_EQ(mesh.mesh_report().duplicates, 1U);
     }
 }
 

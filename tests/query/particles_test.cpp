@@ -1,39 +1,12 @@
 // A particle that is moved to each returned point and stepped again never leaves a closed mesh: gravity and reflection in a bowl,
 // 240 steps, near and far from the origin, no skin anywhere.
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Side_of_triangle_mesh.h>
-#include <CGAL/Surface_mesh.h>
-
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
+#include <support/inside_oracle.h>
 #include <support/meshes.h>
 
 namespace pierce::test {
 namespace {
-
-/// CGAL's judgement of a point and a closed mesh, by exact predicates.
-template <class Scalar>
-class InsideOracle {
-  public:
-    explicit InsideOracle(const TriangleSoup<Scalar>& soup) {
-        std::vector<Mesh::Vertex_index> vertices;
-        for (const Vec3<Scalar>& p : soup.positions)
-            vertices.push_back(mesh_.add_vertex({double(p[0]), double(p[1]), double(p[2])}));
-        for (const IndexTriple& t : soup.triangles)
-            EXPECT_NE(mesh_.add_face(vertices[t[0]], vertices[t[1]], vertices[t[2]]), Mesh::null_face());
-        EXPECT_TRUE(CGAL::is_closed(mesh_));
-        side_.emplace(mesh_);
-    }
-    [[nodiscard]] bool outside(const Vec3<Scalar>& p) const {
-        return (*side_)({double(p[0]), double(p[1]), double(p[2])}) == CGAL::ON_UNBOUNDED_SIDE;
-    }
-
-  private:
-    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-    using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-    Mesh mesh_;
-    std::optional<CGAL::Side_of_triangle_mesh<Mesh, Kernel>> side_;
-};
 
 struct Outcome {
     int outside = 0;

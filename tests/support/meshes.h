@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
+#include <set>
 #include <utility>
 
 #include <pierce/triangle_soup.h>
@@ -78,42 +78,70 @@ inline TriangleSoup<double> bowl(int n) {
     });
 }
 
-/// The boundary of a random set of unit cubes within size^3, scaled by `edge`: closed, on a lattice, full of coplanar faces, with edges
+/// A random set of unit cubes within size^3 and its boundary, scaled by `edge`: closed, on a lattice, full of coplanar faces, with edges
 /// and vertices that more than two faces meet in. The diagonal of each square is random.
-inline TriangleSoup<double> polycube(int size, double filled, int edge, std::uint64_t seed) {
-    Random random(seed);
-    TriangleSoup<double> soup;
-    std::map<std::array<int, 3>, bool> cube;
-    for (int x = 0; x < size; ++x)
-        for (int y = 0; y < size; ++y)
-            for (int z = 0; z < size; ++z)
-                if (random.chance(filled)) cube[{x, y, z}] = true;
-    std::map<std::array<int, 3>, std::uint32_t> index;
-    const auto vertex = [&](const std::array<int, 3>& p) {
-        const auto [at, isnew] = index.try_emplace(p, static_cast<std::uint32_t>(soup.positions.size()));
-        if (isnew) soup.positions.push_back(Vec3<double>(p[0], p[1], p[2]) * edge);
-        return at->second;
-    };
-    for (const auto& [place, unused] : cube)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            for (int up = 0; up < 2; ++up) {
-                std::array<int, 3> neighbour = place;
-                neighbour[axis] += up != 0 ? 1 : -1;
-                if (cube.contains(neighbour)) continue;
-                std::array<std::uint32_t, 4> corner{};
-                for (int k = 0; k < 4; ++k) {  // around the square, counter-clockwise seen from +axis
-                    std::array<int, 3> p = place;
-                    p[axis] += up;
-                    p[(axis + 1) % 3] += (k == 1 || k == 2) ? 1 : 0;
-                    p[(axis + 2) % 3] += k >= 2 ? 1 : 0;
-                    corner[static_cast<std::size_t>(k)] = vertex(p);
+struct Polycube {
+    Polycube(int cubes, double filled, int edge_length, std::uint64_t seed) : size(cubes), edge(edge_length) {
+        Random random(seed);
+        for (int x = 0; x < size; ++x)
+            for (int y = 0; y < size; ++y)
+                for (int z = 0; z < size; ++z)
+                    if (random.chance(filled)) cube.insert({x, y, z});
+        std::map<std::array<int, 3>, std::uint32_t> index;
+        const auto vertex = [&](const std::array<int, 3>& p) {
+            const auto [at, isnew] = index.try_emplace(p, static_cast<std::uint32_t>(soup.positions.size()));
+            if (isnew) soup.positions.push_back(Vec3<double>(p[0], p[1], p[2]) * edge);
+            return at->second;
+        };
+        for (const std::array<int, 3>& place : cube)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                for (int up = 0; up < 2; ++up) {
+                    std::array<int, 3> neighbour = place;
+                    neighbour[axis] += up != 0 ? 1 : -1;
+                    if (cube.contains(neighbour)) continue;
+                    std::array<std::uint32_t, 4> corner{};
+                    for (int k = 0; k < 4; ++k) {  // around the square, counter-clockwise seen from +axis
+                        std::array<int, 3> p = place;
+                        p[axis] += up;
+                        p[(axis + 1) % 3] += (k == 1 || k == 2) ? 1 : 0;
+                        p[(axis + 2) % 3] += k >= 2 ? 1 : 0;
+                        corner[static_cast<std::size_t>(k)] = vertex(p);
+                    }
+                    if (up == 0) std::swap(corner[1], corner[3]);
+                    const std::size_t s = random.below(2);
+                    soup.triangles.push_back({corner[s], corner[s + 1], corner[s + 2]});
+                    soup.triangles.push_back({corner[s], corner[s + 2], corner[(s + 3) % 4]});
                 }
-                if (up == 0) std::swap(corner[1], corner[3]);
-                const std::size_t s = random.below(2);
-                soup.triangles.push_back({corner[s], corner[s + 1], corner[s + 2]});
-                soup.triangles.push_back({corner[s], corner[s + 2], corner[(s + 3) % 4]});
+    }
+
+    /// Whether the point, moved by an infinitesimal step upwards along each axis, lies in a cube.
+    [[nodiscard]] bool inside_when_moved(const Vec3<double>& p) const {
+        const auto cell = [&](int k) { return static_cast<int>(std::floor(p[k] / edge)); };
+        return cube.contains({cell(0), cell(1), cell(2)});
+    }
+
+    /// Whether every cube that the point belongs to, or lies on the boundary of, is there.
+    [[nodiscard]] bool strictly_inside(const Vec3<double>& p) const {
+        for (int corner = 0; corner < 8; ++corner) {
+            std::array<int, 3> cell{};
+            for (int k = 0; k < 3; ++k) {
+                const double x = p[k] / edge;
+                const bool below = (corner >> k & 1) != 0;
+                cell[static_cast<std::size_t>(k)] = static_cast<int>(below ? std::ceil(x) - 1 : std::floor(x));
             }
-    return soup;
+            if (!cube.contains(cell)) return false;
+        }
+        return true;
+    }
+
+    int size;
+    double edge;
+    std::set<std::array<int, 3>> cube;
+    TriangleSoup<double> soup;
+};
+
+inline TriangleSoup<double> polycube(int size, double filled, int edge, std::uint64_t seed) {
+    return Polycube(size, filled, edge, seed).soup;
 }
 
 /// An open, bumpy square in [-1, 1]^2 facing up: 2 n^2 triangles.

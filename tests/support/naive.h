@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include <exact/planes.h>
 #include <pierce/hit.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
@@ -74,8 +73,16 @@ class NaiveMesh {
         for (std::uint32_t i = 0; i < corners_.size(); ++i) {
             if (apart(path, corners_[i])) continue;
             const detail::Decision decision = detail::decide(path, corners_[i], options.sides);
-            if (decision.hit && detail::fraction_at_most(path, corners_[i], options.max_fraction))
-                found.push_back({i, decision});
+            if (!decision.hit || !detail::fraction_at_most(path, corners_[i], options.max_fraction)) continue;
+            if (!options.face_mask.empty() && (faces_[i] >= options.face_mask.size() || options.face_mask[faces_[i]] == 0))
+                continue;
+            if (options.accept) {
+                const detail::Measures m = detail::measure(path, corners_[i]);
+                if (!options.accept({faces_[i], i, decision.side, decision.feature, decision.feature_index,
+                                     decision.at_start, m.fraction, {m.barycentric[0], m.barycentric[1], m.barycentric[2]}}))
+                    continue;
+            }
+            found.push_back({i, decision});
         }
         std::sort(found.begin(), found.end(), [&](const Found& x, const Found& y) {
             const int c = order(path, x.triangle, y.triangle);
@@ -89,8 +96,8 @@ class NaiveMesh {
     [[nodiscard]] Hit<Scalar> reported(const detail::Path& path, const std::vector<Found>& found, std::size_t i,
                                        const QueryOptions& options) const {
         const std::uint32_t triangle = found[i].triangle;
-        const detail::Point normal = detail::exact_planes(corners_[triangle]).normal;
-        Hit<Scalar> hit = detail::report<Scalar>(path, corners_[triangle], normal, found[i].decision, faces_[triangle],
+        const detail::PreparedTriangle prepared = detail::prepare(corners_[triangle]);
+        Hit<Scalar> hit = detail::report<Scalar>(path, corners_[triangle], prepared, found[i].decision, faces_[triangle],
                                                  triangle);
         QueryOptions whole = options;
         whole.max_fraction = 1;
@@ -103,7 +110,8 @@ class NaiveMesh {
             }
             return true;
         };
-        detail::verify(hit, path, corners_[triangle], normal, clear);
+        const auto side = [&](const detail::Point& point) { return detail::side_of(corners_[triangle], point); };
+        detail::verify(hit, path, prepared.normal, side, clear);
         return hit;
     }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <string_view>
 
 #include <point.h>
@@ -14,6 +15,14 @@ struct Pair {
     detail::Path path;
     detail::Corners corners;
 };
+
+inline std::string describe(const Pair& pair) {
+    std::ostringstream out;
+    out << std::hexfloat;
+    for (const detail::Point& p : {pair.path.from, pair.path.to, pair.corners[0], pair.corners[1], pair.corners[2]})
+        out << p[0] << ' ' << p[1] << ' ' << p[2] << "  ";
+    return out.str();
+}
 
 enum class Family { random, at_edge, at_vertex, coplanar, touching, sliver, lattice, degenerate, near_parallel, count };
 

@@ -34,7 +34,10 @@ Segment<Scalar> mixed_segment(const MeshView<Scalar>& mesh, const Extent<Scalar>
     const double length = extent.diagonal() * std::exp(random.between(std::log(1e-4), std::log(2.0)));
     Vec3<double> direction = random.direction();
     const std::size_t triangle = random.below(mesh.triangles.size());
-    if (random.chance(0.1)) direction = Vec3<double>::Unit(static_cast<int>(random.below(3))) * (random.chance(0.5) ? 1 : -1);
+    if (random.chance(0.1)) {
+        const auto axis = static_cast<int>(random.below(3));
+        direction = Vec3<double>::Unit(axis) * (random.chance(0.5) ? 1 : -1);
+    }
     if (random.chance(0.05)) {
         direction = corner(mesh, triangle, 1) - corner(mesh, triangle, 0);
         if (direction.norm() > 0) direction.normalize();

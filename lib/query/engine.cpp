@@ -1,0 +1,106 @@
+// The queries: one traversal each, with the collector that makes the difference.
+#include <query/engine.h>
+
+#include <limits>
+
+#include <query/answer.h>
+
+namespace pierce::detail {
+
+template <class Scalar>
+std::optional<Hit<Scalar>> first_hit(const Scene& scene, const Segment<Scalar>& segment, const QueryOptions& options,
+                                     QueryCounters& counters) {
+    return first_answer<Certified, Scalar>(scene, to_path(segment), options, counters);
+}
+
+template <class Scalar>
+bool any_hit(const Scene& scene, const Segment<Scalar>& segment, const QueryOptions& options,
+             QueryCounters& counters) {
+    Any<Scalar> any;
+    traverse<Certified>(scene, to_path(segment), options, counters, any);
+    return any.found();
+}
+
+template <class Scalar>
+std::size_t all_hits(const Scene& scene, const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
+                     const QueryOptions& options, QueryCounters& counters) {
+    const Path path = to_path(segment);
+    All<Scalar> all(scene, path, out, counters);
+    traverse<Certified>(scene, path, options, counters, all);
+    std::size_t strictly_before = 0;  // how many of the hits have a smaller fraction than the one at hand
+    for (std::size_t i = 0; i < all.kept_count(); ++i) {
+        const Candidate candidate = all.kept(i);
+        if (i > 0 && compare_fractions(path, scene.corners(out[i - 1].triangle), scene.corners(candidate.triangle)) < 0)
+            strictly_before = i;
+        out[i] = reported<Scalar>(scene, path, candidate);
+        place<Certified, Scalar>(scene, out[i], path, out.first(strictly_before), options, counters);
+    }
+    return all.total();
+}
+
+namespace {
+
+int crossings_of(const Scene& scene, const Path& path, QueryCounters& counters) {
+    int sum = 0;
+    // The move is infinitesimal: a path that does not even touch a closed triangle does not cross it when moved either.
+    visit_near(scene, path, [] { return 1.0; }, counters, [&](std::uint32_t triangle, const Visit& visit) {
+        ++counters.triangles;
+        const Filtered filtered = filter(scene.prepared[triangle], path, Sides::both);
+        if (filtered.verdict == Verdict::miss) return;
+        const Corners corners = scene.corners(triangle);
+        if (!visit.first_with(scene.grid.shape().range(box_of(corners)))) return;
+        if (filtered.verdict == Verdict::hit) {
+            sum += filtered.side == Sides::front ? 1 : -1;
+        } else {
+            ++counters.exact_decisions;
+            sum += crossing(path, corners);
+        }
+    });
+    return sum;
+}
+
+}  // namespace
+
+template <class Scalar>
+int crossings(const Scene& scene, const Segment<Scalar>& segment, QueryCounters& counters) {
+    return crossings_of(scene, to_path(segment), counters);
+}
+
+template <class Scalar>
+int winding_number(const Scene& scene, const Vec3<Scalar>& at, QueryCounters& counters) {
+    const Point point = to_point(at);
+    if (scene.grid.empty()) return 0;
+    // Outside of the box, on the shortest way along an axis: in the infinitesimal step's sense a point on the box's upper side is
+    // outside already, since the step goes up; below, it must lie beyond by the least there is.
+    const Box& box = scene.grid.bounds();
+    Path way{point, point};
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (point[k] >= box.high[k] || point[k] < box.low[k]) return 0;
+        const double below = std::nextafter(box.low[k], -std::numeric_limits<double>::infinity());
+        for (const double target : {box.high[k], below}) {
+            const double distance = std::abs(target - point[k]);
+            // The first one is taken whatever its length, which may overflow.
+            if (!std::isfinite(target) || (way.to != point && !(distance < shortest))) continue;
+            shortest = distance;
+            way.to = point;
+            way.to[k] = target;
+        }
+    }
+    return -crossings_of(scene, way, counters);
+}
+
+template std::optional<Hit<float>> first_hit(const Scene&, const Segment<float>&, const QueryOptions&, QueryCounters&);
+template bool any_hit(const Scene&, const Segment<float>&, const QueryOptions&, QueryCounters&);
+template std::size_t all_hits(const Scene&, const Segment<float>&, std::span<Hit<float>>, const QueryOptions&,
+                              QueryCounters&);
+template int crossings(const Scene&, const Segment<float>&, QueryCounters&);
+template int winding_number(const Scene&, const Vec3<float>&, QueryCounters&);
+template std::optional<Hit<double>> first_hit(const Scene&, const Segment<double>&, const QueryOptions&, QueryCounters&);
+template bool any_hit(const Scene&, const Segment<double>&, const QueryOptions&, QueryCounters&);
+template std::size_t all_hits(const Scene&, const Segment<double>&, std::span<Hit<double>>, const QueryOptions&,
+                              QueryCounters&);
+template int crossings(const Scene&, const Segment<double>&, QueryCounters&);
+template int winding_number(const Scene&, const Vec3<double>&, QueryCounters&);
+
+}  // namespace pierce::detail

@@ -1,0 +1,38 @@
+// The queries themselves, behind a call that the compiler does not inline: the caller has made the arithmetic standard
+// (environment.h), in which even the conversion of a float to double matters, and has seen that every coordinate is finite and
+// `max_fraction` is not NaN.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <pierce/explain.h>
+#include <pierce/hit.h>
+#include <query/scene.h>
+
+namespace pierce::detail {
+
+template <class Scalar>
+[[gnu::noinline]] std::optional<Hit<Scalar>> first_hit(const Scene& scene, const Segment<Scalar>& segment,
+                                                       const QueryOptions& options, QueryCounters& counters);
+
+template <class Scalar>
+[[gnu::noinline]] bool any_hit(const Scene& scene, const Segment<Scalar>& segment, const QueryOptions& options,
+                               QueryCounters& counters);
+
+template <class Scalar>
+[[gnu::noinline]] std::size_t all_hits(const Scene& scene, const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
+                                       const QueryOptions& options, QueryCounters& counters);
+
+template <class Scalar>
+[[gnu::noinline]] int crossings(const Scene& scene, const Segment<Scalar>& segment, QueryCounters& counters);
+
+template <class Scalar>
+[[gnu::noinline]] int winding_number(const Scene& scene, const Vec3<Scalar>& point, QueryCounters& counters);
+
+template <class Scalar>
+[[gnu::noinline]] std::vector<FaceVerdict> explain(const Scene& scene, const Segment<Scalar>& segment,
+                                                   const QueryOptions& options, QueryCounters& counters);
+
+}  // namespace pierce::detail

@@ -1,0 +1,120 @@
+// The filter is never wrong when it is certain: a million decisions against exact rational arithmetic, and a hundred million in the
+// slow run. Both scalar types; all sizes from the smallest to the largest numbers there are.
+#include <atomic>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <exact/decide.h>
+#include <kernel/filter.h>
+#include <support/gmp_oracle.h>
+#include <support/pairs.h>
+
+namespace pierce::test {
+namespace {
+
+using namespace detail;
+
+struct Tally {
+    std::atomic<std::int64_t> decisions = 0;
+    std::atomic<std::int64_t> hits = 0;
+    std::atomic<std::int64_t> certain = 0;
+    std::atomic<std::int64_t> wrong = 0;
+};
+
+// Around one triangle, several segments: the pair's own, that with its ends exchanged, and some that start or end on a corner.
+template <class Scalar>
+void judge(Family family, int power, double offset, Random& random, GmpOracle& oracle, Tally& tally) {
+    Pair pair = make_pair_of<Scalar>(family, 1, offset, random);
+    for (Point* p : {&pair.path.from, &pair.path.to, &pair.corners[0], &pair.corners[1], &pair.corners[2]})
+        for (double& x : *p) x = static_cast<double>(static_cast<Scalar>(std::ldexp(x, power)));
+    if (has_zero_area(pair.corners)) return;
+    const PreparedTriangle prepared = prepare(pair.corners);
+    const Point from = pair.path.from;
+    const Point to = pair.path.to;
+    const std::array<Path, 4> paths = {Path{from, to}, {to, from}, {from, pair.corners[random.below(3)]},
+                                       {pair.corners[random.below(3)], to}};
+    std::int64_t hits = 0;
+    std::int64_t certain = 0;
+    for (const Path& path : paths) {
+        pair.path = path;
+        const int truth = oracle.hit_side(pair.path, pair.corners);
+        hits += truth != 0 ? 1 : 0;
+        const auto compare = [&](const char* who, bool hit, Sides side) {
+            if ((hit ? (side == Sides::front ? 1 : -1) : 0) == truth) return;
+            ++tally.wrong;
+            ADD_FAILURE() << who << ": " << describe(pair);
+        };
+        const Decision decision = decide(pair.path, pair.corners, Sides::both);
+        compare("the exact room", decision.hit, decision.side);
+        const Filtered filtered = filter(prepared, pair.path, Sides::both);
+        if (filtered.verdict == Verdict::doubtful) continue;
+        ++certain;
+        compare("the filter", filtered.verdict == Verdict::hit, filtered.side);
+    }
+    tally.decisions += 4;
+    tally.hits += hits;
+    tally.certain += certain;
+}
+
+template <class Scalar>
+void run(std::int64_t decisions, int lowest_power, int highest_power) {
+    Tally tally;
+    const auto work = [&](std::uint64_t seed, std::int64_t share) {
+        Random random(seed);
+        GmpOracle oracle;
+        for (std::int64_t i = 0; i < share && tally.wrong == 0; i += 4) {
+            const auto family = static_cast<Family>(random.below(k_family_names.size()));
+            // The size of everyday coordinates, any size that the filter works in (filter.h, 5), and both ends of the range.
+            int power = random.between_ints(-20, 20);
+            const double kind = random.unit();
+            if (kind < 0.3) power = random.between_ints(std::max(lowest_power, -310), std::min(highest_power, 310));
+            else if (kind < 0.4) power = random.between_ints(lowest_power, lowest_power + 60);
+            else if (kind < 0.5) power = random.between_ints(highest_power - 30, highest_power);
+            const double offset = random.chance(0.5) ? 0 : random.chance(0.5) ? 1e3 : 1e6;
+            judge<Scalar>(family, power, offset, random, oracle, tally);
+        }
+    };
+    // Triangles of area zero drop out of the count, so each thread is asked for more than its share.
+    const unsigned count = std::max(1U, std::thread::hardware_concurrency());
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < count; ++i) threads.emplace_back(work, 1000 + i, decisions / count * 3 / 2);
+    for (std::thread& thread : threads) thread.join();
+    std::cout << tally.decisions << " decisions, " << tally.hits << " hits, " << tally.certain << " certain, "
+              << tally.wrong << " wrong\n";
+    EXPECT_EQ(tally.wrong, 0);
+    EXPECT_GE(tally.decisions, decisions);
+    EXPECT_GT(tally.hits, tally.decisions / 20);
+    EXPECT_GT(tally.certain, tally.decisions / 5);  // a filter that is always in doubt would be right as well
+}
+
+// The largest coordinates of a pair at offset 1e6 are below 2^21: they stay finite.
+void run_both(std::int64_t each) {
+    run<float>(each, -149, 106);
+    run<double>(each, -1074, 1002);
+}
+
+TEST(Filter, is_never_wrong_in_a_million) { run_both(500'000); }
+TEST(FilterSoak, is_never_wrong_in_a_hundred_million) { run_both(50'000'000); }
+
+TEST(Filter, is_in_doubt_on_edges_planes_and_beyond_its_range) {
+    const Corners corners = {Point{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+    const PreparedTriangle prepared = prepare(corners);
+    const auto verdict = [&](const Point& from, const Point& to) { return filter(prepared, {from, to}, Sides::front).verdict; };
+    EXPECT_EQ(verdict({1, 1, 1}, {1, 1, -1}), Verdict::hit);
+    EXPECT_EQ(verdict({5, 5, 1}, {5, 5, -1}), Verdict::miss);
+    EXPECT_EQ(verdict({1, 1, 2}, {1, 1, 1}), Verdict::miss);
+    EXPECT_EQ(verdict({1, 1, -1}, {1, 1, 1}), Verdict::miss);
+    EXPECT_EQ(verdict({1, 1, 0}, {1, 1, -1}), Verdict::doubtful);
+    EXPECT_EQ(verdict({1, 0, 1}, {1, 0, -1}), Verdict::doubtful);
+    EXPECT_EQ(verdict({0, 0, 1}, {0, 0, -1}), Verdict::doubtful);
+    EXPECT_EQ(verdict({1, 1, 0}, {2, 1, 0}), Verdict::doubtful);
+    EXPECT_EQ(verdict({4, 0, 0}, {4, 0, 0}), Verdict::doubtful);  // both ends on the anchor
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(verdict({nan, 1, 1}, {1, 1, -1}), Verdict::doubtful);
+    EXPECT_EQ(verdict({1, 1, 1}, {1, 1, -1e100}), Verdict::doubtful);
+    EXPECT_EQ(verdict({1, 1, 1}, {1, std::numeric_limits<double>::infinity(), -1}), Verdict::doubtful);
+    EXPECT_EQ(verdict({1, 1, 0x1p-60}, {1, 1, -1}), Verdict::doubtful) << "too close to the plane to be certain";
+}
+
+}  // namespace
+}  // namespace pierce::test

@@ -1,0 +1,136 @@
+// The report names what keeps a mesh from keeping its promise, and finds nothing in a mesh that has nothing.
+#include <gtest/gtest.h>
+#include <pierce/collision_mesh.h>
+#include <support/meshes.h>
+#include <support/real_meshes.h>
+
+namespace pierce::test {
+namespace {
+
+using V = Vec3<double>;
+
+template <class Scalar>
+MeshReport report(const TriangleSoup<Scalar>& soup) {
+    return CollisionMesh<Scalar>(soup.view()).mesh_report();
+}
+
+TEST(MeshReport, finds_nothing_in_a_closed_surface) {
+    for (const MeshReport& r : {report(bumpy_sphere(8)), report(moved<float>(bowl(8), 1, V(0, 0, 0)))}) {
+        EXPECT_TRUE(r.closed());
+        EXPECT_EQ(r.components, 1U);
+        EXPECT_EQ(r.border_edges + r.non_manifold_edges + r.misoriented_edges + r.non_manifold_vertices + r.t_junctions +
+                      r.zero_area + r.duplicates,
+                  0U);
+        EXPECT_EQ(r.to_string(), "closed: nothing gets through; 1 component\n");
+    }
+}
+
+TEST(MeshReport, counts_borders_and_components) {
+    TriangleSoup<double> soup = terrain(3, 0.1, 1);
+    for (const V& p : {V(9, 0, 0), V(9, 1, 0), V(9, 0, 1)}) soup.positions.push_back(p);
+    soup.triangles.push_back({16, 17, 18});
+    const MeshReport r = report(soup);
+    EXPECT_FALSE(r.closed());
+    EXPECT_EQ(r.components, 2U);
+    EXPECT_EQ(r.border_edges, 15U);
+    EXPECT_EQ(r.border_edge_list.size(), MeshReport::k_examples);
+    EXPECT_EQ(r.border_edge_list[0], (MeshReport::Edge{0, 1}));
+    EXPECT_EQ(r.t_junctions, 0U);
+}
+
+TEST(MeshReport, sees_a_seam_of_equal_coordinates_as_closed) {
+    TriangleSoup<double> apart;
+    const TriangleSoup<double> sphere = bumpy_sphere(4);
+    for (const IndexTriple& t : sphere.triangles) {
+        const auto first = static_cast<std::uint32_t>(apart.positions.size());
+        for (const std::uint32_t v : t) apart.positions.push_back(sphere.positions[v] + V(0.0, -0.0, 0.0));
+        apart.triangles.push_back({first, first + 1, first + 2});
+    }
+    EXPECT_TRUE(report(apart).closed());
+}
+
+TEST(MeshReport, names_a_turned_face_a_third_wing_and_a_double) {
+    TriangleSoup<double> soup = bumpy_sphere(2);
+    std::swap(soup.triangles[5][0], soup.triangles[5][1]);
+    MeshReport r = report(soup);
+    EXPECT_FALSE(r.closed());
+    EXPECT_EQ(r.misoriented_edges, 3U);
+    EXPECT_EQ(r.border_edges, 0U);
+
+    soup = bumpy_sphere(2);
+    soup.positions.push_back(V(5, 5, 5));
+    soup.triangles.push_back({soup.triangles[0][0], soup.triangles[0][1], static_cast<std::uint32_t>(soup.positions.size() - 1)});
+    r = report(soup);
+    EXPECT_EQ(r.non_manifold_edges, 1U);
+    EXPECT_EQ(r.misoriented_edges, 1U);
+    EXPECT_EQ(r.border_edges, 2U);
+
+    soup = bumpy_sphere(2);
+    IndexTriple again = soup.triangles[7];
+    std::swap(again[0], again[2]);
+    soup.triangles.push_back(again);
+    r = report(soup);
+    EXPECT_EQ(r.duplicates, 1U);
+    EXPECT_EQ(r.duplicate_triangles, std::vector<std::uint32_t>{static_cast<std::uint32_t>(soup.triangles.size() - 1)});
+    EXPECT_FALSE(r.closed());
+}
+
+TEST(MeshReport, names_a_vertex_where_fans_touch) {
+    // Two tetrahedra that share one vertex, by coordinates.
+    TriangleSoup<double> soup;
+    for (double s : {1.0, -1.0}) {
+        const auto first = static_cast<std::uint32_t>(soup.positions.size());
+        for (const V& p : {V(0, 0, 0), V(s, 0, 0), V(0, s, 0), V(0, 0, s)}) soup.positions.push_back(p);
+        for (IndexTriple t : {IndexTriple{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}) {
+            if (s < 0) std::swap(t[1], t[2]);
+            soup.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+        }
+    }
+    const MeshReport r = report(soup);
+    EXPECT_TRUE(r.closed());
+    EXPECT_EQ(r.components, 2U);
+    EXPECT_EQ(r.non_manifold_vertices, 1U);
+    EXPECT_EQ(r.non_manifold_vertex_list, std::vector<std::uint32_t>{0});
+}
+
+TEST(MeshReport, finds_t_junctions_also_where_they_were_rounded) {
+    //   d-------c
+    //   |  /  \ |      Below, one long edge a-b; above it the vertex m was put on that edge, at a third.
+    //   a---m---b
+    for (const double scale : {1.0, 1e-30, 1e30})
+        for (const V& direction : {V(4, 0, 0), V(1, 2, 3), V(0.1, -0.7, 1e-3)}) {
+            const V a = V(7, 1, -2) * scale;
+            const V b = a + direction * scale;
+            const V up = V(0, 1, 5) * scale;
+            const V m = a + (b - a) / 3;
+            const TriangleSoup<double> soup{{a, b, m, b + up, a + up, a - up},
+                                            {{0, 2, 4}, {2, 3, 4}, {2, 1, 3}, {1, 0, 5}},
+                                            {}};
+            const MeshReport r = report(moved<float>(soup, 1, V(0, 0, 0)));
+            EXPECT_EQ(r.t_junctions, 1U) << scale << ' ' << direction.transpose();
+            EXPECT_EQ(r.t_junction_list, std::vector<std::uint32_t>{2});
+            EXPECT_EQ(r.components, 2U);
+            TriangleSoup<double> beside = soup;
+            beside.positions[2] += 0.01 * up;
+            EXPECT_EQ(report(moved<float>(beside, 1, V(0, 0, 0))).t_junctions, 0U);
+        }
+}
+
+TEST(MeshReport, counts_zero_area_and_leaves_it_out) {
+    TriangleSoup<double> soup = bumpy_sphere(2);
+    soup.triangles.push_back({0, 0, 1});
+    const MeshReport r = report(soup);
+    EXPECT_EQ(r.zero_area, 1U);
+    EXPECT_TRUE(r.closed());
+}
+
+TEST(MeshReport, reads_real_meshes) {
+    EXPECT_TRUE(report(real_mesh<double>("elephant")).closed());
+    const MeshReport boeing = report(real_mesh<double>("boeing"));
+    EXPECT_FALSE(boeing.closed());
+    EXPECT_GT(boeing.misoriented_edges, 0U) << boeing.to_string();
+    EXPECT_GT(report(real_mesh<double>("blobby_3cc")).components, 2U);
+}
+
+}  // namespace
+}  // namespace pierce::test
