@@ -30,8 +30,8 @@ struct TriangleSoup {
 ///
 /// Throws `MeshError`, one line that names the file, the line or byte, and the reason, when the file can't be opened, is
 /// cut short, holds an index out of range, a coordinate that is not finite or does not fit `Scalar`, a face of fewer than
-/// three corners, or no face at all. Nothing is skipped. Time and memory are linear in the size of the file, whatever
-/// counts its header claims.
+/// three corners, or no face at all. Nothing is skipped. Memory is linear in the size of the file, whatever counts its header
+/// claims, and so is time but for concave polygons of many corners (n log n as a rule, quadratic at worst).
 template <class Scalar>
 [[nodiscard]] TriangleSoup<Scalar> read_mesh(const std::filesystem::path& path);
 

@@ -1,5 +1,5 @@
-// What counts when a step ends, starts or lies exactly on a face? Any answer will do, unless the end of one step and the start of the
-// next are both left out: then a point that stops there once is through.
+// What counts when a step ends, starts or lies exactly on a face? Any answer will do, unless the end of one step and
+// the start of the next are both left out: then a point that stops there once is through.
 #include <array>
 
 #include <Eigen/Geometry>
@@ -22,7 +22,8 @@ struct Place {
 
 Place place(test::Random& random) {
     const auto integers = [&](int size) {
-        return Point(random.between_ints(-size, size), random.between_ints(-size, size), random.between_ints(-size, size));
+        return Point(random.between_ints(-size, size), random.between_ints(-size, size),
+                     random.between_ints(-size, size));
     };
     for (;;) {
         const Point a = integers(16);
@@ -32,7 +33,8 @@ Place place(test::Random& random) {
         const Point forward = integers(8);
         if (normal.squaredNorm() == 0 || normal.dot(forward) <= 0) continue;
         Place result;
-        for (const Point& p : {a, Point(a + 16 * u), Point(a + 16 * v)}) result.soup.positions.push_back(p.cast<float>());
+        for (const Point& p : {a, Point(a + 16 * u), Point(a + 16 * v)})
+            result.soup.positions.push_back(p.cast<float>());
         result.soup.triangles = {{0, 1, 2}};
         const int i = random.between_ints(2, 7);
         const int j = random.between_ints(2, 7);
@@ -83,7 +85,8 @@ std::string verdict(const Tally& tally) {
 
 void ends_on_the_plane(Run& run) {
     const std::size_t count = run.many(2000);
-    Table table({"", "ends on it", "starts on it, goes in", "starts on it, goes out", "lies in it", "two steps: ends on it, goes in"});
+    Table table({"", "ends on it", "starts on it, goes in", "starts on it, goes out", "lies in it",
+                 "two steps: ends on it, goes in"});
     for (const Library& library : libraries()) {
         std::vector<std::string> row = {library.name};
         const Tally tally = measure(run, library, count);
@@ -94,9 +97,9 @@ void ends_on_the_plane(Run& run) {
     }
     std::cout << "### 4. Ends on the plane\n\n"
               << "Is there a hit when a segment ends, starts or lies exactly on a triangle, in " << count
-              << " positions with integer coordinates? A share, where it depends. Of two steps the first ends on the triangle and the second "
-                 "goes from there, or from where the first was stopped, to behind it: they tunnel if neither has a hit, and pass in "
-                 "the second if the first has one, but not the second.\n\n";
+              << " positions with integer coordinates? A share, where it depends. Of two steps the first ends on the "
+                 "triangle and the second goes from there, or from where the first was stopped, to behind it: they "
+                 "tunnel if neither has a hit, and pass in the second if the first has one, but not the second.\n\n";
     table.print(std::cout);
 }
 

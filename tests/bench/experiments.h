@@ -1,9 +1,8 @@
-// The experiments of `trust`: each prints a table with what was asked and what it promises, and finds fault with pierce if it can.
+// The experiments of `trust`: each says what is asked, prints a table, and finds fault with pierce if it can.
 #pragma once
 
 #include <cstddef>
 #include <iostream>
-#include <sstream>
 #include <string>
 
 #include "peers.h"
@@ -19,9 +18,8 @@ class Run {
 
     void must(bool holds, const Library& library, const std::string& promise, const Point& from, const Point& to) {
         if (holds || !library.is_pierce || ++failures_ > 10) return;
-        std::ostringstream text;
-        text << std::hexfloat << library.name << ": " << promise << ": " << from.transpose() << " -> " << to.transpose();
-        std::cerr << text.str() << std::endl;
+        std::cerr << std::hexfloat << library.name << ": " << promise << ": " << from.transpose() << " -> "
+                  << to.transpose() << std::defaultfloat << std::endl;
     }
     [[nodiscard]] std::size_t failures() const { return failures_; }
 

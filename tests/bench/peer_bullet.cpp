@@ -1,4 +1,4 @@
-// Bullet: a world with one btBvhTriangleMeshShape, asked by btCollisionWorld::rayTest. In float, as Debian builds it by default.
+// Bullet: a world with one btBvhTriangleMeshShape, asked by btCollisionWorld::rayTest. In float, as Debian builds it.
 #include <btBulletCollisionCommon.h>
 
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>

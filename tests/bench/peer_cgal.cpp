@@ -1,5 +1,5 @@
-// CGAL: an AABB_tree of triangles with exact predicates and inexact constructions, in double. It has no first hit of a segment:
-// the nearest of all its intersections is taken.
+// CGAL: an AABB_tree of triangles with exact predicates and inexact constructions, in double. It has no first hit of a
+// segment: the nearest of all its intersections is taken.
 #include <limits>
 
 #include <CGAL/AABB_traits.h>
@@ -36,6 +36,7 @@ class Cgal : public Peer {
     [[nodiscard]] Point rounded(const Point& p) const override { return p; }
 
     [[nodiscard]] std::optional<Stop> first(const Point& from, const Point& to) const override {
+        if (from == to) return std::nullopt;  // it must not be asked about segments of length zero
         std::vector<Tree::Intersection_and_primitive_id<Kernel::Segment_3>::Type> all;
         tree_.all_intersections(Kernel::Segment_3(to_cgal(from), to_cgal(to)), std::back_inserter(all));
         std::optional<Stop> nearest;
@@ -50,7 +51,7 @@ class Cgal : public Peer {
                 nearest = Stop{from_cgal(p), normal};
             };
             if (const auto* point = boost::get<Kernel::Point_3>(&place)) consider(*point);
-            if (const auto* shared = boost::get<Kernel::Segment_3>(&place)) {  // the segment lies in the triangle's plane
+            if (const auto* shared = boost::get<Kernel::Segment_3>(&place)) {  // it lies in the triangle's plane
                 consider(shared->source());
                 consider(shared->target());
             }

@@ -1,5 +1,5 @@
-// Embree 3: rtcIntersect1 for the first hit, a filter function in the intersection context for all of them. Debian's build does not
-// cull backs, so both sides count unless the same kind of filter rejects backs.
+// Embree 3: rtcIntersect1 for the first hit, a filter function in the intersection context for all of them. Debian's
+// build does not cull backs, so both sides count unless the same filter rejects backs.
 #include <cstring>
 #include <stdexcept>
 

@@ -33,7 +33,9 @@ class Pierce : public Peer {
     }
 
   private:
-    static Segment<Scalar> segment(const Point& from, const Point& to) { return {from.cast<Scalar>(), to.cast<Scalar>()}; }
+    static Segment<Scalar> segment(const Point& from, const Point& to) {
+        return {from.cast<Scalar>(), to.cast<Scalar>()};
+    }
 
     CollisionMesh<Scalar> mesh_;
 };

@@ -1,4 +1,4 @@
-// What is measured: pierce and the libraries that people use in its place, one thin class for each, all behind one interface.
+// What is measured: pierce and the libraries that people use in its place, a thin class for each, behind one interface.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace pierce::bench {
 
 using Point = Vec3<double>;
 
-/// Where a library says that a moving point runs into the mesh, as its users compute it, and the normal of what it ran into.
+/// Where a library says that a moving point runs into the mesh, as its users compute it, and the normal there.
 struct Stop {
     Point point;
     Point normal;
@@ -37,15 +37,14 @@ class Peer {
     [[nodiscard]] virtual std::optional<int> crossings(const Point& /*from*/, const Point& /*to*/) const { return {}; }
 };
 
-/// What counts where a library leaves it to its user. Backs are culled the way its users do it: by the sign of the product of
-/// normal and direction, for each candidate. Libraries with a choice of their own ignore this.
+/// What counts where a library leaves it to its user. Backs are culled the way its users do it: by the sign of normal
+/// times direction, for each candidate. Libraries with a choice of their own ignore this.
 enum class Backs { count, culled };
 
 struct Library {
     std::string name;
     std::unique_ptr<Peer> (*make)(const TriangleSoup<float>& soup, Backs backs);
     bool is_pierce = false;
-    bool is_slow = false;  ///< measured on fewer segments where there are many
 };
 
 std::unique_ptr<Peer> make_pierce_float(const TriangleSoup<float>& soup, Backs backs);
@@ -68,7 +67,7 @@ inline std::vector<Library> libraries() {
             {.name = "Embree, robust", .make = make_embree_robust},
             {.name = "Bullet", .make = make_bullet_default},
             {.name = "Bullet, backs filtered", .make = make_bullet_front},
-            {.name = "CGAL", .make = make_cgal, .is_slow = true}};
+            {.name = "CGAL", .make = make_cgal}};
 }
 
 }  // namespace pierce::bench

@@ -32,8 +32,10 @@ struct Share {
         if (all()) return "100 %";
         const double share = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
         std::ostringstream out;
-        if (share > 99.9) out << std::fixed << std::setprecision(4) << share;
-        else out << std::setprecision(share < 0.1 ? 2 : 3) << share;
+        if (share > 99.9)
+            out << std::fixed << std::setprecision(4) << share;
+        else
+            out << std::setprecision(share < 0.1 ? 2 : 3) << share;
         return out.str() + " %";
     }
 };
@@ -47,11 +49,13 @@ class Table {
     void print(std::ostream& out) const {
         for (std::size_t r = 0; r < rows_.size(); ++r) {
             out << '|';
-            for (std::size_t c = 0; c < rows_[r].size(); ++c) out << ' ' << std::setw(width(c)) << std::left << rows_[r][c] << " |";
+            for (std::size_t c = 0; c < rows_[r].size(); ++c)
+                out << ' ' << std::setw(width(c)) << std::left << rows_[r][c] << " |";
             out << '\n';
             if (r > 0) continue;
             out << '|';
-            for (std::size_t c = 0; c < rows_[0].size(); ++c) out << std::string(static_cast<std::size_t>(width(c)) + 2, '-') << '|';
+            for (std::size_t c = 0; c < rows_[0].size(); ++c)
+                out << std::string(static_cast<std::size_t>(width(c)) + 2, '-') << '|';
             out << '\n';
         }
         out << std::endl;

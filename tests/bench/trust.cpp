@@ -10,11 +10,30 @@
 
 namespace {
 
+constexpr std::string_view k_what_is_called = R"(What is called, and what it promises:
+
+- **pierce**: `first_hit`, `all_hits` and `crossings`, for fronts of faces. Promises that all decisions are exact, and
+  that a particle which is moved to the returned point and stepped again never gets through a closed mesh.
+- **Embree**: `rtcIntersect1` from 0 to 1 along `to - from`, with the point `from + t * (to - from)`, in float; for all
+  hits a filter function that rejects them one by one. Both sides count, as Debian builds it, if nothing else is said.
+  Robust is `RTC_SCENE_FLAG_ROBUST`, "typically used for avoiding artifacts caused by rays shooting through edges". The
+  manual makes no guarantee for hits at the ends of a ray or close to them, and warns of two reports for one edge.
+  Figures may differ on another processor, for which Embree has other code.
+- **Bullet**, in float: `btCollisionWorld::rayTest` on a `btBvhTriangleMeshShape` with quantized boxes, which its header
+  recommends; the closest-hit callback and its point, and the all-hits callback. Both sides count, or fronts only with
+  `kF_FilterBackfaces`. We found no promise about seams or ends.
+- **CGAL**: `AABB_tree` with exact predicates and inexact constructions, in double: the nearest of `all_intersections`,
+  as there is no first one for segments, and `number_of_intersected_primitives`. Both sides count, and so do ends. The
+  decisions are exact by contract, the points are rounded.
+
+)";
+
 int measure(bool quick) {
     using namespace pierce::bench;
     const auto start = std::chrono::steady_clock::now();
     std::cout << "Embree " << embree_version() << ", Bullet " << bullet_version() << ", CGAL " << cgal_version()
-              << ", as Debian builds them.\n\n";
+              << ", as Debian builds them.\n\n"
+              << k_what_is_called;
     Run run(quick);
     seams(run);
     repeated_steps(run);
@@ -22,7 +41,8 @@ int measure(bool quick) {
     ends_on_the_plane(run);
     collide_and_slide(run);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    std::cerr << "took " << static_cast<int>(taken.count()) << " s; promises broken by pierce: " << run.failures() << '\n';
+    std::cerr << "took " << static_cast<int>(taken.count()) << " s; promises broken by pierce: " << run.failures()
+              << '\n';
     return run.failures() == 0 ? 0 : 1;
 }
 
