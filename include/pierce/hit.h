@@ -21,9 +21,9 @@ struct Hit {
     Vec3<Scalar> point;
     /// Unit normal of the face, pointing to its front whichever side was hit. Each component within 4 ulp of 1.
     Vec3<Scalar> normal;
-    /// Weights of the corners a, b, c in the true point of intersection, in [0, 1], each within 4 ulp of 1.
+    /// Weights of the corners a, b, c in the true point of intersection, in [0, 1], each within 1 ulp of 1.
     Vec3<Scalar> barycentric;
-    /// Where the segment meets the face, in [0, 1], within 4 ulp; not verified.
+    /// Where the segment meets the face, in [0, 1], within 1 ulp; not verified.
     Scalar exact_fraction;
     /// The caller's number of the face (`MeshView::faces`).
     std::uint32_t face;

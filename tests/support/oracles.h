@@ -80,6 +80,12 @@ class RationalOracle {
     [[nodiscard]] const Q& fraction() const { return fraction_; }
     [[nodiscard]] const Q& weight(std::size_t corner) const { return weight_[corner]; }
     [[nodiscard]] const Q& from_side() const { return from_side_; }
+    /// A component of the normal, of a triangle that has one, over the largest of them; rounded once.
+    [[nodiscard]] double normal_ratio(std::size_t k) const {
+        Q largest = 0;
+        for (const Q& component : n_) largest = std::max(largest, abs(component));
+        return CGAL::to_double(n_[k] / largest);
+    }
 
   private:
     static Q abs(const Q& x) { return x < 0 ? -x : x; }

@@ -1,0 +1,67 @@
+// The values of a hit are those of the true intersection, within the units in the last place that hit.h documents: against rational
+// numbers, for float and double, on generic and on delicate pairs.
+#include <gtest/gtest.h>
+#include <pierce/pierce.h>
+#include <support/oracles.h>
+#include <support/pairs.h>
+
+namespace pierce::test {
+namespace {
+
+using Q = RationalOracle::Q;
+
+// The distance of a value from the exact one, in steps of `Scalar` at `at`.
+template <class Scalar>
+double steps(Scalar value, const Q& exact, double at) {
+    const auto near = static_cast<Scalar>(std::abs(at));
+    const double step = double(std::nextafter(near, std::numeric_limits<Scalar>::infinity())) - double(near);
+    return std::abs(CGAL::to_double((Q(double(value)) - exact) / Q(step)));
+}
+
+template <class Scalar>
+void check_values() {
+    Random random(21);
+    double fraction = 0;
+    double weight = 0;
+    double normal = 0;
+    int hits = 0;
+    for (int i = 0; i < 30'000; ++i) {
+        const auto family = static_cast<Family>(random.below(k_family_names.size()));
+        const double offset = std::array{0.0, 1e3, 1e6}[random.below(3)];
+        const double scale = std::array{1e-3, 1.0, 1e3}[random.below(3)];
+        const Pair pair = make_pair_of<Scalar>(family, scale, offset, random);
+        const auto vec = [](const detail::Point& p) { return Vec3<double>(p[0], p[1], p[2]).cast<Scalar>().eval(); };
+        const TriangleSoup<Scalar> soup{{vec(pair.corners[0]), vec(pair.corners[1]), vec(pair.corners[2])}, {{0, 1, 2}}, {}};
+        const CollisionMesh<Scalar> mesh(soup.view());
+        const auto hit = mesh.first_hit({vec(pair.path.from), vec(pair.path.to)}, {.sides = Sides::both});
+        const RationalOracle exact(pair.path, pair.corners);
+        ASSERT_EQ(hit.has_value(), exact.hit(Sides::both)) << describe(pair);
+        if (!hit) continue;
+        ++hits;
+        fraction = std::max(fraction, steps(hit->exact_fraction, exact.fraction(), CGAL::to_double(exact.fraction())));
+        ASSERT_LE(Q(double(hit->fraction)), exact.fraction()) << "a lower bound: " << describe(pair);
+        Vec3<double> direction;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto at = static_cast<int>(k);
+            weight = std::max(weight, steps(hit->barycentric[at], exact.weight(k), 1));
+            ASSERT_GE(hit->barycentric[at], 0) << describe(pair);
+            ASSERT_LE(hit->barycentric[at], 1) << describe(pair);
+            direction[at] = exact.normal_ratio(k);
+        }
+        direction.normalize();
+        for (int k = 0; k < 3; ++k) normal = std::max(normal, steps(hit->normal[k], Q(direction[k]), 1));
+    }
+    std::cout << hits << " hits; off by at most: fraction " << fraction << ", weights " << weight << ", normal " << normal
+              << " units in the last place\n";
+    EXPECT_GT(hits, 3000);
+    EXPECT_LE(fraction, 1);
+    EXPECT_LE(weight, 1);
+    EXPECT_LE(normal, 4);
+    EXPECT_GT(fraction, 0.4);  // a comparison that sees no rounding looks at the wrong thing
+}
+
+TEST(Values, are_within_their_documented_error_in_float) { check_values<float>(); }
+TEST(Values, are_within_their_documented_error_in_double) { check_values<double>(); }
+
+}  // namespace
+}  // namespace pierce::test
