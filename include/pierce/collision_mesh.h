@@ -33,7 +33,8 @@ struct MeshStatistics {
 /// Triangles, prepared, in a uniform grid. Copies what it needs of the mesh.
 ///
 /// Queries never throw, never assert and end for every input. The answer depends on the mesh and the segment only, to the
-/// last bit: not on the grid, the threads, the machine or the order of queries.
+/// last bit: not on the grid, the threads, the machine or the order of queries. They are slow, milliseconds and more, for segments that
+/// reach further than some 10^9 times the size of the mesh: an end at 1e30 is no way to say "far away".
 template <class Scalar>
 class CollisionMesh {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
@@ -56,7 +57,8 @@ class CollisionMesh {
     [[nodiscard]] bool any_hit(const Segment<Scalar>& segment, const QueryOptions& options = {}) const noexcept;
 
     /// The first `out.size()` hits in order of (fraction, face, triangle), one for each triangle that is hit. Returns how
-    /// many there are in all: if that is more than `out.size()`, the last ones were left out.
+    /// many there are in all: if that is more than `out.size()`, the last ones were left out. Each point is verified on its own way
+    /// from the start, so the time is quadratic in the number of hits kept; with an empty `out` they are only counted.
     std::size_t all_hits(const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
                          const QueryOptions& options = {}) const noexcept;
 

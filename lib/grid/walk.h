@@ -14,7 +14,8 @@
 //     16 u M along that axis (the terms above), and two roundings of s, |s| <= 1 after clamping, which move it by less than
 //     4 u M along any axis; along the other axes |d| is smaller, so the shift is no larger there.
 // Everything together is below 40 u M. The walk pads every interval by 64 u M, taken over all three axes: less than 2^-26 cells
-// for a segment around the grid. For one that reaches 2^40 grids far, it is a real number of cells; the walk gets slower then, not wrong.
+// for a segment around the grid. From 2^40 cells outside on it is a part of a cell, and from 2^55 on the whole grid: every cell is
+// visited then, which is right, and as slow as it sounds.
 #pragma once
 
 #include <algorithm>

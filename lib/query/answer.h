@@ -15,21 +15,24 @@ template <class Scalar>
                           candidate.decision, scene.face_of(candidate.triangle), candidate.triangle);
 }
 
-/// Sets the verified point. `before` are hits that lie strictly before this one, and so on the way to any point near it.
-template <class Kernel, class Scalar>
-void place(const Scene& scene, Hit<Scalar>& hit, const Path& path, std::span<const Hit<Scalar>> before,
-           const QueryOptions& options, QueryCounters& counters) {
+/// Sets the verified point. `passed(triangle)` says which triangles are hit strictly before this one, and so on the way to any point
+/// near it.
+template <class Kernel, class Scalar, class Passed>
+void place(const Scene& scene, Hit<Scalar>& hit, const Path& path, const Passed& passed, const QueryOptions& options,
+           QueryCounters& counters) {
     QueryOptions whole = options;
     whole.max_fraction = 1;  // a nearer limit was meant for the caller's own segment
     const auto side = [&](const Point& point) { return Kernel::side(scene, hit.triangle, point); };
     const auto clear = [&](const Point& point) {
-        Any<Scalar> any(hit, before);  // verify() has seen to the hit's own triangle
+        Any any(passed, hit.triangle);  // verify() has seen to the hit's own triangle
         traverse<Kernel>(scene, {path.from, point}, whole, counters, any);
         return !any.found();
     };
     const int tries = verify(hit, path, scene.prepared[hit.triangle].normal, side, clear);
     counters.retreats += static_cast<std::uint64_t>(tries);
 }
+
+[[nodiscard]] inline bool none_passed(std::uint32_t) { return false; }
 
 template <class Kernel, class Scalar>
 [[nodiscard]] std::optional<Hit<Scalar>> first_answer(const Scene& scene, const Path& path, const QueryOptions& options,
@@ -38,7 +41,7 @@ template <class Kernel, class Scalar>
     traverse<Kernel>(scene, path, options, counters, first);
     if (!first.found()) return std::nullopt;
     Hit<Scalar> hit = reported<Scalar>(scene, path, first.best());
-    place<Kernel, Scalar>(scene, hit, path, {}, options, counters);
+    place<Kernel>(scene, hit, path, none_passed, options, counters);
     return hit;
 }
 

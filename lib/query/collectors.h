@@ -34,25 +34,22 @@ class First {
     bool found_ = false;
 };
 
-/// Stops at any hit, but for those of the triangle of `own` and of the triangles in `passed`.
-template <class Scalar>
+/// Stops at any hit, but for those of one triangle and those that `passed(triangle)` says are known already.
+template <class Passed>
 class Any {
   public:
-    Any() = default;
-    Any(const Hit<Scalar>& own, std::span<const Hit<Scalar>> passed) : own_(&own), passed_(passed) {}
+    static constexpr std::uint32_t k_no_triangle = ~std::uint32_t{0};
+
+    explicit Any(Passed passed, std::uint32_t own = k_no_triangle) : passed_(passed), own_(own) {}
 
     [[nodiscard]] double limit() const { return found_ ? -1 : 1; }
-    [[nodiscard]] bool wants(std::uint32_t triangle) const {
-        if (found_ || (own_ != nullptr && triangle == own_->triangle)) return false;
-        return std::none_of(passed_.begin(), passed_.end(),
-                            [triangle](const Hit<Scalar>& hit) { return hit.triangle == triangle; });
-    }
-    void add(const Candidate&, const Visit&) { found_ = true; }
+    [[nodiscard]] bool wants(std::uint32_t triangle) const { return !found_ && triangle != own_; }
+    void add(const Candidate& candidate, const Visit&) { found_ = !passed_(candidate.triangle); }
     [[nodiscard]] bool found() const { return found_; }
 
   private:
-    const Hit<Scalar>* own_ = nullptr;
-    std::span<const Hit<Scalar>> passed_;
+    Passed passed_;
+    std::uint32_t own_;
     bool found_ = false;
 };
 

@@ -16,7 +16,7 @@ std::optional<Hit<Scalar>> first_hit(const Scene& scene, const Segment<Scalar>& 
 template <class Scalar>
 bool any_hit(const Scene& scene, const Segment<Scalar>& segment, const QueryOptions& options,
              QueryCounters& counters) {
-    Any<Scalar> any;
+    Any any(none_passed);
     traverse<Certified>(scene, to_path(segment), options, counters, any);
     return any.found();
 }
@@ -27,13 +27,17 @@ std::size_t all_hits(const Scene& scene, const Segment<Scalar>& segment, std::sp
     const Path path = to_path(segment);
     All<Scalar> all(scene, path, out, counters);
     traverse<Certified>(scene, path, options, counters, all);
-    std::size_t strictly_before = 0;  // how many of the hits have a smaller fraction than the one at hand
     for (std::size_t i = 0; i < all.kept_count(); ++i) {
         const Candidate candidate = all.kept(i);
-        if (i > 0 && compare_fractions(path, scene.corners(out[i - 1].triangle), scene.corners(candidate.triangle)) < 0)
-            strictly_before = i;
+        const auto passed = [&](std::uint32_t triangle) {
+            Candidate other;
+            if (!Certified::test(scene, triangle, path, options.sides, 1, counters, other)) return false;
+            if (other.latest < candidate.earliest) return true;
+            return other.earliest <= candidate.latest &&
+                   compare_fractions(path, scene.corners(triangle), scene.corners(candidate.triangle)) < 0;
+        };
         out[i] = reported<Scalar>(scene, path, candidate);
-        place<Certified, Scalar>(scene, out[i], path, out.first(strictly_before), options, counters);
+        place<Certified>(scene, out[i], path, passed, options, counters);
     }
     return all.total();
 }

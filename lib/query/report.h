@@ -94,9 +94,11 @@ int verify(Hit<Scalar>& hit, const Path& path, const Point& normal, Side&& side,
     double noise = 0;  // what rounding a point's coordinates can do to that distance
     for (std::size_t k = 0; k < 3; ++k) {
         rate += normal[k] * (path.to[k] / 2 - path.from[k] / 2);
-        noise += std::abs(normal[k]) * std::max(std::abs(path.from[k]), std::abs(path.to[k]));
+        const double largest = std::max(std::abs(path.from[k]), std::abs(path.to[k]));
+        noise += std::abs(normal[k]) * std::max(largest * static_cast<double>(std::numeric_limits<Scalar>::epsilon()),
+                                                static_cast<double>(std::numeric_limits<Scalar>::denorm_min()));
     }
-    double back = noise * static_cast<double>(std::numeric_limits<Scalar>::epsilon()) / std::abs(2 * rate);
+    double back = noise / std::abs(2 * rate);
     if (!(back > 0)) back = 1;
 
     const int outside = hit.side == Sides::front ? 1 : -1;

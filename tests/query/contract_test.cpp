@@ -164,6 +164,9 @@ TEST(Contract, max_fraction_is_exact_and_closed) {
     const S third{V(1, 1, 1), V(1, 1, -2)};  // at 1/3, which no double is: the nearest one lies below
     EXPECT_FALSE(mesh.any_hit(third, {.max_fraction = 1.0 / 3}));
     EXPECT_TRUE(mesh.any_hit(third, {.max_fraction = std::nextafter(1.0 / 3, 1.0)}));
+    // The same on an edge, which only exact arithmetic decides.
+    EXPECT_FALSE(mesh.any_hit({V(1, 0, 1), V(1, 0, -2)}, {.max_fraction = 1.0 / 3}));
+    EXPECT_TRUE(mesh.any_hit({V(1, 0, 1), V(1, 0, -2)}, {.max_fraction = std::nextafter(1.0 / 3, 1.0)}));
     const S start{V(1, 1, 0), V(1, 1, -1)};
     EXPECT_TRUE(mesh.any_hit(start, {.max_fraction = 0}));
     EXPECT_FALSE(mesh.any_hit(half, {.max_fraction = 0}));
@@ -202,6 +205,28 @@ TEST(Contract, all_hits_counts_what_it_leaves_out) {
     EXPECT_EQ(mesh.all_hits(down, some), 10U);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(same_bits(some[i], all[i]));
     EXPECT_EQ(mesh.all_hits(down, {}), 10U);
+}
+
+TEST(Contract, of_two_hits_at_one_place_neither_hides_the_other_from_its_point) {
+    // A ridge of two slopes, hit on the ridge itself from many sides: both faces are hit at the same fraction, so the way to either
+    // point must be clear of both.
+    const TriangleSoup<double> soup{{V(0, -1, 0), V(0, 1, 0), V(1, 0, -0.7), V(-1, 0, -0.3)}, {{0, 2, 1}, {0, 1, 3}}, {}};
+    const CollisionMesh<double> mesh(soup.view());
+    Random random(4);
+    std::array<Hit<double>, 4> hits;
+    int both = 0;
+    for (int i = 0; i < 2000; ++i) {
+        V d = random.direction();
+        d[2] = 1 + std::abs(d[2]);
+        for (double& x : d) x = std::round(x * 1024) / 1024;  // so that the segment meets the ridge exactly
+        const V at(0, random.between_ints(-7, 7) / 8.0, 0);
+        const Segment<double> segment{at + d, at - d};
+        if (mesh.all_hits(segment, hits) != 2) continue;
+        ++both;
+        ASSERT_EQ(hits[0].exact_fraction, 0.5);
+        for (std::size_t k = 0; k < 2; ++k) ASSERT_FALSE(mesh.any_hit({segment.from, hits[k].point})) << to_text(segment);
+    }
+    EXPECT_EQ(both, 2000);
 }
 
 template <class Scalar>
@@ -270,6 +295,7 @@ TEST(Contract, coordinates_at_both_ends_of_the_range) {
         EXPECT_EQ(hit->exact_fraction, 0.5) << size;
         EXPECT_EQ(hit->barycentric, V(0.5, 0.25, 0.25)) << size;
         EXPECT_FALSE(mesh.any_hit({through.from, hit->point})) << size;
+        EXPECT_GT(hit->fraction, size > 1e-320 ? 0.49 : -1) << size;
         EXPECT_FALSE(mesh.any_hit({size * V(0.75, 0.5, 0.25), size * V(0.75, 0.5, -0.25)})) << size;
         EXPECT_EQ(mesh.first_hit({size * V(0.5, 0.5, 0.25), size * V(0.5, 0.5, -0.25)}).value().feature, Feature::edge);
     }

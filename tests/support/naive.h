@@ -45,6 +45,13 @@ class NaiveMesh {
         return found.size();
     }
 
+    [[nodiscard]] std::optional<SweepHit<Scalar>> sweep(const Vec3<Scalar>& from, const Vec3<Scalar>& to,
+                                                        const QueryOptions& options = {}) const {
+        const auto hit = first_hit({from, to}, options);
+        if (!hit) return std::nullopt;
+        return SweepHit<Scalar>{*hit, hit->fraction};
+    }
+
   private:
     struct Found {
         std::uint32_t triangle;
