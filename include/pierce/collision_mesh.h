@@ -1,12 +1,12 @@
 // A mesh made ready for queries: built once, then immutable and shared by threads.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <pierce/explain.h>
@@ -24,8 +24,10 @@ struct MeshStatistics {
     std::size_t faces = 0;      ///< of the caller: different numbers in `MeshView::faces`
     std::size_t triangles = 0;
     std::size_t degenerate = 0; ///< triangles of area exactly zero: kept, and never hit
-    std::array<std::uint32_t, 3> grid_cells = {0, 0, 0};
+    std::size_t grid_levels = 0;     ///< uniform grids, by the size of what they hold
+    double cell_size = 0;            ///< of the finest
     std::size_t grid_references = 0; ///< entries of all cell lists together
+    std::string_view backend;        ///< the instruction set of the wide kernels
     std::size_t bytes = 0;
     std::uint64_t invalid_queries = 0; ///< queries so far with a coordinate that is NaN or infinite: they had no hit
 };

@@ -1,25 +1,30 @@
 // What a caller may choose when a mesh is built and when a query is asked.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <type_traits>
 
+#include <pierce/executor.h>
 #include <pierce/types.h>
 
 namespace pierce {
 
 /// None of these changes an answer: they trade memory and build time for query time.
 struct BuildOptions {
-    /// Cells of the grid along x, y and z. A zero leaves all three to the library, which chooses them from the face
-    /// count and the shape of the box. More than `max_grid_bytes` can hold are scaled down.
-    std::array<std::uint32_t, 3> grid_cells = {0, 0, 0};
-    /// An upper bound for the memory of the grid (cells and cell lists), kept by choosing a coarser grid. Zero stands
-    /// for 192 bytes a face, and for 64 KiB where that is more. A grid of one cell, with four bytes a face, is always made.
+    /// The edge of a cell of the finest grid. Zero leaves it to the library, which looks at the triangles' sizes.
+    double cell_size = 0;
+    /// An upper bound for the memory of the grids, kept by larger cells. Zero stands for 96 bytes a triangle, and for 64 KiB where that is
+    /// more. One cell for each size of triangles, with 12 bytes a triangle, is always made.
     std::size_t max_grid_bytes = 0;
+    /// Which wide kernels to use: `sse2`, `avx2`, `neon`, `plain`. If it is empty, the environment variable PIERCE_BACKEND says, and
+    /// without that the machine's fastest. Building throws std::invalid_argument where the machine has none of the name.
+    std::string_view backend = {};
+    /// Builds in parallel, if given.
+    Executor executor = {};
 };
 
 /// What a query went through, added up over the queries that were given the same counters. Not thread-safe: one

@@ -1,142 +1,190 @@
-// The broad phase: choosing a resolution and filling the cells.
+// The broadphase: which level a box goes to, and how large its cells are.
 #include <grid/grid.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+
+#include <grid/level_builder.h>
 
 namespace pierce::detail {
 
 namespace {
 
-// Cells for each box: with 4 a surface's cells hold some ten triangles each, and a finer grid costs more in cells walked
-// than it saves in tests (`examples/cast`, bunny and dragon: 2 and 8 are both slower).
-constexpr double k_cells_per_box = 4;
+// A cell is this many times as wide as the median box. Surfaces fill cells by area: at 2 a cell lists some ten triangles and
+// a triangle is in some three cells. Measured (tests/bench/run): less takes memory, more takes time.
+constexpr double k_cell = 2;
+// The next level's cells are this many times as wide; a box goes to the first level whose cells are not much smaller than it.
+constexpr double k_next_level = 4;
+constexpr double k_largest_box = 2;
+constexpr std::size_t k_most_levels = 24;
 
-// Keeps the walk's padding below 2^-27 cells (walk.h), and an index of all cells well inside 64 bits.
-constexpr double k_most_cells_on_an_axis = 1 << 20;
+template <class Scalar>
+double extent(const PlainBox<Scalar>& box) {
+    double most = 0;
+    for (std::size_t k = 0; k < 3; ++k) most = std::max(most, static_cast<double>(box.high[k]) - static_cast<double>(box.low[k]));
+    return most;
+}
 
-Box bounds_of(std::span<const Box> boxes) {
-    Box bounds = boxes.front();
-    for (const Box& box : boxes) {
+template <class Scalar>
+double usual_extent(std::span<const PlainBox<Scalar>> boxes) {
+    std::vector<double> some;
+    const std::size_t stride = std::max<std::size_t>(1, boxes.size() / 4096);
+    for (std::size_t i = 0; i < boxes.size(); i += stride)
+        if (boxes[i].listed()) some.push_back(extent(boxes[i]));
+    if (some.empty()) return 0;
+    const auto place = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 8);
+    std::nth_element(some.begin(), place, some.end());
+    return *place;
+}
+
+/// The boxes of one level.
+struct Share {
+    Box box{{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+             std::numeric_limits<double>::infinity()},
+            {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+             -std::numeric_limits<double>::infinity()}};
+    std::vector<std::uint32_t> ids;
+
+    template <class Scalar>
+    void add(std::uint32_t id, const PlainBox<Scalar>& other) {
+        ids.push_back(id);
         for (std::size_t k = 0; k < 3; ++k) {
-            bounds.low[k] = std::min(bounds.low[k], box.low[k]);
-            bounds.high[k] = std::max(bounds.high[k], box.high[k]);
+            box.low[k] = std::min(box.low[k], static_cast<double>(other.low[k]));
+            box.high[k] = std::max(box.high[k], static_cast<double>(other.high[k]));
         }
     }
-    return bounds;
-}
+};
 
-// Cubes of one size, as many as asked for: an axis along which the box is thinner than a cube gets one cell and takes no
-// part, so a flat mesh is divided in two dimensions and a straight one in one. The shape is scaled to its longest side first, so
-// that no product of sides can overflow.
-std::array<int, 3> resolution(const Box& bounds, double wanted) {
-    Point side{};
-    for (std::size_t k = 0; k < 3; ++k) side[k] = bounds.high[k] / 2 - bounds.low[k] / 2;
-    const double longest = std::max({side[0], side[1], side[2]});
-    if (!(longest > 0)) return {1, 1, 1};
-    for (double& s : side) s /= longest;
-    Point sorted = side;
-    std::sort(sorted.begin(), sorted.end());
-    double size = std::cbrt(sorted[0] * sorted[1] * sorted[2] / wanted);
-    if (!(sorted[0] > size)) size = std::sqrt(sorted[1] * sorted[2] / wanted);
-    if (!(sorted[1] > size)) size = sorted[2] / wanted;
-    std::array<int, 3> cells{};
-    for (std::size_t k = 0; k < 3; ++k)
-        cells[k] = static_cast<int>(std::clamp(std::round(side[k] / size), 1.0, k_most_cells_on_an_axis));
-    return cells;
-}
-
-GridShape shape_for(const Box& bounds, const std::array<int, 3>& cells) {
-    GridShape shape;
-    shape.low = bounds.low;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double scale = cells[k] / (bounds.high[k] - bounds.low[k]);
-        // Sides of zero, or so short or long that the scale is not a normal number, are not divided.
-        if (cells[k] > 1 && std::isnormal(scale)) {
-            shape.cells[k] = cells[k];
-            shape.scale[k] = scale;
+// Numbers sorted by keys, stably: the digits of a byte, from the last (as in Knuth, volume 3, 5.2.5).
+void sort_by_key(std::vector<std::uint32_t>& keys, std::vector<std::uint32_t>& numbers) {
+    std::vector<std::uint32_t> other_keys(keys.size());
+    std::vector<std::uint32_t> other_numbers(numbers.size());
+    constexpr int k_bits = 11;
+    std::uint32_t used = 0;
+    for (const std::uint32_t key : keys) used |= key;
+    for (int shift = 0; shift < 32 && used >> shift != 0; shift += k_bits) {
+        std::array<std::uint32_t, (1 << k_bits) + 1> next{};
+        const auto digit = [&](std::uint32_t key) { return key >> shift & ((1U << k_bits) - 1); };
+        for (const std::uint32_t key : keys) ++next[digit(key) + 1];
+        std::partial_sum(next.begin(), next.end(), next.begin());
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            const std::uint32_t to = next[digit(keys[i])]++;
+            other_keys[to] = keys[i];
+            other_numbers[to] = numbers[i];
         }
+        keys.swap(other_keys);
+        numbers.swap(other_numbers);
     }
-    return shape;
 }
 
-std::array<int, 3> halved(const std::array<int, 3>& cells) {
-    return {(cells[0] + 1) / 2, (cells[1] + 1) / 2, (cells[2] + 1) / 2};
+constexpr std::size_t k_chunk = 1 << 14;
+
+template <class Scalar>
+Steps steps_of(const Raster& raster, const PlainBox<Scalar>& box) {
+    const auto point = [](const std::array<Scalar, 3>& p) {
+        return Point{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+    };
+    return raster.steps(point(box.low), point(box.high));
 }
 
-// Only as far as `most`, so that a hopelessly fine grid costs no more than a good one.
-std::size_t count_entries(const GridShape& shape, std::span<const Box> boxes, std::size_t most) {
-    std::size_t count = 0;
-    for (const Box& box : boxes) {
-        const CellRange r = shape.range(box);
-        std::size_t cells = 1;
-        for (std::size_t k = 0; k < 3; ++k) cells *= static_cast<std::size_t>(r.last[k] - r.first[k] + 1);
-        count += cells;
-        if (count > most) break;
-    }
-    return count;
-}
-
-template <class F>
-void for_each_cell(const GridShape& shape, const CellRange& r, F&& f) {
-    for (int z = r.first[2]; z <= r.last[2]; ++z)
-        for (int y = r.first[1]; y <= r.last[1]; ++y) {
-            const std::size_t row = shape.index(0, y, z);
-            for (int x = r.first[0]; x <= r.last[0]; ++x) f(row + static_cast<std::size_t>(x));
+/// The triangles of a level in the order of their cells.
+template <class Scalar>
+void sort_by_cell(const Raster& raster, std::span<const PlainBox<Scalar>> boxes, std::vector<std::uint32_t>& ids,
+                  const Executor& executor) {
+    std::vector<std::uint32_t> keys(ids.size());
+    executor((ids.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
+        const std::size_t end = std::min(ids.size(), (chunk + 1) * k_chunk);
+        for (std::size_t i = chunk * k_chunk; i < end; ++i) {
+            const Steps box = steps_of(raster, boxes[ids[i]]);
+            // Half a cell at a time along each axis, ten bits of it: which place of memory a triangle gets is nobody's promise.
+            std::uint32_t key = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                auto x = static_cast<std::uint32_t>(std::max(box.low[k] + (box.high[k] - box.low[k]) / 2, 0) / k_steps) & 0x3ff;
+                // Every third bit (Morton 1966).
+                x = (x | x << 16) & 0x030000ff;
+                x = (x | x << 8) & 0x0300f00f;
+                x = (x | x << 4) & 0x030c30c3;
+                x = (x | x << 2) & 0x09249249;
+                key |= x << k;
+            }
+            keys[i] = key;
         }
+    });
+    sort_by_key(keys, ids);
+}
+
+/// A level of the triangles `ids`, which it sorts; they get the numbers from `first` on.
+template <class Scalar>
+Level build_level(const Box& box, std::vector<std::uint32_t>& ids, std::uint32_t first, double size,
+                  std::span<const PlainBox<Scalar>> boxes, std::size_t max_bytes, const Executor& executor) {
+    std::vector<Steps> steps(ids.size());
+    bool sorted = false;
+    for (;; size *= 1.25) {
+        const Raster raster(box, size);
+        const bool single = raster.cells() == std::array<int, 3>{1, 1, 1};
+        // Bricks take up to 8 bytes a box; the more there are, the tighter the cells.
+        const double directory = LevelBuilder::directory_bytes(raster);
+        if (!single && directory > 1024.0 + 8.0 * static_cast<double>(ids.size())) continue;
+        if (!sorted) sort_by_cell(raster, boxes, ids, executor);
+        sorted = true;
+        executor((steps.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
+            const std::size_t end = std::min(steps.size(), (chunk + 1) * k_chunk);
+            for (std::size_t i = chunk * k_chunk; i < end; ++i) steps[i] = steps_of(raster, boxes[ids[i]]);
+        });
+        LevelBuilder builder(raster, first, steps);
+        // A start for each cell that lists something: at most one for each reference.
+        const double bytes = directory + 16.0 * static_cast<double>(builder.reference_count());
+        if (!single && (bytes > static_cast<double>(max_bytes) || builder.reference_count() > 0xffff'fff0U)) continue;
+        return builder.build(executor);
+    }
 }
 
 }  // namespace
 
-CellRange GridShape::range(const Box& box) const {
-    CellRange r{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        r.first[k] = cell(k, box.low[k]);
-        r.last[k] = cell(k, box.high[k]);
+template <class Scalar>
+Grid::Grid(std::span<const PlainBox<Scalar>> boxes, const GridOptions& options, const Executor& executor) {
+    const double size = options.cell_size > 0 ? options.cell_size : std::max(k_cell * usual_extent(boxes), 0x1p-1000);
+    std::array<Share, k_most_levels> shares;
+    std::size_t listed = 0;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        if (!boxes[i].listed()) continue;
+        const double reach = extent(boxes[i]);
+        std::size_t level = 0;
+        double largest = k_largest_box * size;
+        while (level + 1 < k_most_levels && reach > largest) {
+            ++level;
+            largest *= k_next_level;
+        }
+        shares[level].add(i, boxes[i]);
+        ++listed;
     }
-    return r;
+    double cell = size;
+    order_.reserve(listed);
+    for (Share& share : shares) {
+        if (!share.ids.empty()) {
+            const double part = static_cast<double>(share.ids.size()) / static_cast<double>(listed);
+            levels_.push_back(build_level(share.box, share.ids, static_cast<std::uint32_t>(order_.size()), cell, boxes,
+                                          static_cast<std::size_t>(part * static_cast<double>(options.max_bytes)), executor));
+            order_.insert(order_.end(), share.ids.begin(), share.ids.end());
+            if (levels_.size() == 1) bounds_ = share.box;
+            for (std::size_t k = 0; k < 3; ++k) {
+                bounds_.low[k] = std::min(bounds_.low[k], share.box.low[k]);
+                bounds_.high[k] = std::max(bounds_.high[k], share.box.high[k]);
+            }
+        }
+        cell *= k_next_level;
+    }
 }
 
-std::size_t GridShape::cell_count() const {
-    return static_cast<std::size_t>(cells[0]) * static_cast<std::size_t>(cells[1]) * static_cast<std::size_t>(cells[2]);
-}
+template Grid::Grid(std::span<const PlainBox<float>>, const GridOptions&, const Executor&);
+template Grid::Grid(std::span<const PlainBox<double>>, const GridOptions&, const Executor&);
 
-Grid::Grid(std::span<const Box> boxes, std::span<const std::uint32_t> numbers, const GridOptions& options) {
-    if (boxes.empty()) {
-        start_.assign(2, 0);
-        return;
-    }
-    bounds_ = bounds_of(boxes);
-    std::array<int, 3> cells{};
-    const auto& given = options.cells;
-    if (given[0] != 0 && given[1] != 0 && given[2] != 0) {
-        for (std::size_t k = 0; k < 3; ++k)
-            cells[k] = static_cast<int>(std::min<double>(given[k], k_most_cells_on_an_axis));
-    } else {
-        cells = resolution(bounds_, k_cells_per_box * static_cast<double>(boxes.size()));
-    }
-
-    // 4 bytes for each cell and each entry; both must also be countable in 32 bits. One cell is always allowed.
-    const std::size_t most = std::min<std::size_t>(options.max_bytes / 4, std::numeric_limits<std::uint32_t>::max());
-    for (;; cells = halved(cells)) {
-        shape_ = shape_for(bounds_, cells);
-        if (shape_.cell_count() == 1) break;
-        if (shape_.cell_count() + 1 <= most &&
-            count_entries(shape_, boxes, most) <= most - shape_.cell_count() - 1)
-            break;
-    }
-
-    // Counts are kept one place further on, so that after the running sum `start_[c + 1]` is where cell c begins, and after the
-    // filling, which advances it, where it ends: which is where cell c + 1 begins.
-    start_.assign(shape_.cell_count() + 2, 0);
-    for (const Box& box : boxes)
-        for_each_cell(shape_, shape_.range(box), [&](std::size_t c) { ++start_[c + 2]; });
-    for (std::size_t c = 2; c < start_.size(); ++c) start_[c] += start_[c - 1];
-    entries_.resize(start_.back());
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-        for_each_cell(shape_, shape_.range(boxes[i]), [&](std::size_t c) { entries_[start_[c + 1]++] = numbers[i]; });
-    start_.pop_back();
+std::size_t Grid::bytes() const {
+    std::size_t sum = levels_.capacity() * sizeof(Level);
+    for (const Level& level : levels_) sum += level.bytes();
+    return sum;
 }
 
 }  // namespace pierce::detail

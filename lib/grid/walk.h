@@ -1,142 +1,156 @@
-// The cells that a segment may touch, slice by slice along it. It knows cells, no triangles.
+// Which cells a segment may touch.
 //
-// Certified: if a point of the segment lies in a listed box, some visited cell lists that box. Source: a slab walk in the place
-// of Amanatides and Woo 1987, whose running sums drift; here each slice is computed afresh from the segment's ends.
+// Short segments: every cell that their box shares a step with. Nothing is computed along the way, so nothing can be missed (raster.h).
 //
-// Let G(x) = (x - low) * scale be the exact place of a coordinate, for the scale as stored, and g(x) the computed one:
-// |g - G| <= 2.1 u |G| with u = 2^-52 (two roundings, any rounding mode). A box [a, b] is listed in the cells from
-// g(a) to g(b), cut to integers and clamped; a point x of it has G(a) <= G(x) <= G(b), so a listed cell lies within
-// 2.1 u |G| of G(x). The segment runs from G(from) to G(to), a straight line. With f = g(from), t = g(to), d = t - f and M the
-// largest of |f|, |t| and the number of cells on the axis:
-//   - f + s d, computed, is within 2.1 u M (f) + s (4.2 u M + 2 u M) (d, its difference) + 2 u M (product) + 3 u M (sum) < 16 u M
-//     of the exact place at s;
-//   - the s at which the line reaches a wall w of the main axis, (w - f) / d, computed, is off by what moves the line by less than
-//     16 u M along that axis (the terms above), and two roundings of s, |s| <= 1 after clamping, which move it by less than
-//     4 u M along any axis; along the other axes |d| is smaller, so the shift is no larger there.
-// Everything together is below 40 u M. The walk pads every interval by 64 u M, taken over all three axes: less than 2^-26 cells
-// for a segment around the grid. From 2^40 cells outside on it is a part of a cell, and from 2^55 on the whole grid: every cell is
-// visited then, which is right, and as slow as it sounds.
+// Long segments: cell by cell in the order of the segment (Amanatides and Woo 1987), striding over empty space by the distances kept
+// with empty bricks (Cohen and Sheffer 1994, "Proximity clouds"). Two margins make it certain: boxes are listed in every cell that they
+// come within a step (1/128 of a cell) of, and what is asked of a cell is a step larger on all sides. Why they are enough:
+//
+// Let P(s) be the exact place of the segment's point at fraction s, in cells, for the raster's numbers as stored, and
+// L(s) = f + s d the line that the walk follows, with f, d computed. With u = 2^-52 and M the largest of |f|, |f + d| and the number
+// of cells, f and t are within 3u M of their exact values (three roundings) and d = t - f within 8u M: |L(s) - P(s)| < 11u M for
+// every s in [0, 1].
+//   - The s at which L reaches a wall is computed with three roundings, each time from the start: a shift along L of less than 8u M.
+//     Places on L are computed to within 4u M.
+//   - An axis along which |d| < 2^-20 counts as constant, which is off by less than 2^-20.
+// The walk keeps to M < 2^36: everything together is less than 23 * 2^-52 * 2^36 + 2^-20 < 2^-10 cells, an eighth of a step. So at every fraction s at which it is in a region (a cell, or a block of empty bricks), P(s) is within 2^-9 cells of it, also where L has left
+// the grid by less than that: the outermost cells reach further by `k_pad`. A box that holds P(s) is then listed in
+// that cell, or the region would not be empty; and shares a step with what is asked there.
+//
+// Longer segments: see clip().
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <grid/grid.h>
+#include <grid/level.h>
 
 namespace pierce::detail {
 
-/// The cells visited in one slice: `index` on the main axis, a block on the other two.
-struct Slice {
-    int index = -1;  // -1: none
-    std::array<int, 2> first = {0, 0};
-    std::array<int, 2> last = {-1, -1};
+/// The cells from `first` to `last`, in order of z, y, x, that hold something: `visitor(range, cull)`. Each box that shares a step with
+/// `box` is left by one of them only.
+template <class Visitor>
+void visit_block(const Level& level, const Steps& box, const Cell& first, const Cell& last, Visitor&& visitor) {
+    Cell cell{};
+    for (cell[2] = first[2]; cell[2] <= last[2]; ++cell[2])
+        for (cell[1] = first[1]; cell[1] <= last[1]; ++cell[1])
+            for (cell[0] = first[0]; cell[0] <= last[0]; ++cell[0]) {
+                const Brick& brick = level.brick_of(cell);
+                const std::uint64_t bit = Level::bit_of(cell);
+                if ((brick.cells & bit) == 0) continue;
+                Cull cull = cull_of(box, cell);
+                cull.seen = seen_before(cell, first);
+                visitor(level.range(level.number(brick, bit)), cull);
+            }
+}
 
-    /// Whether the slice has a cell of `range`; `axis` is the main axis.
-    [[nodiscard]] bool meets(const CellRange& range, std::size_t axis) const {
-        if (index < range.first[axis] || index > range.last[axis]) return false;
-        for (std::size_t k = 0; k < 2; ++k) {
-            const std::size_t other = (axis + 1 + k) % 3;
-            if (last[k] < range.first[other] || first[k] > range.last[other]) return false;
-        }
-        return true;
-    }
+/// A part of a segment, in cells of a level: the place at fraction s is `from + s * d`, for s in [first, last].
+struct Line {
+    Point from;
+    Point d;
+    double first;
+    double last;
 };
 
-/// Where the walk stands.
-struct Visit {
-    std::size_t axis = 0;  ///< the main axis: the one along which the segment crosses the most cells
-    Slice slice;
-    Slice before;           ///< the slice visited just before; its index is -1 at the start, or if that one held no cell
-    std::array<int, 2> at = {0, 0};  ///< the cell on the two other axes, (axis + 1) % 3 and (axis + 2) % 3
+constexpr double k_pad = 0x1p-8;
+constexpr double k_flat = 0x1p-20;
+constexpr double k_furthest = 0x1p36;
 
-    /// Whether this cell is the first of the walk to list a box with that range. Along the walk both other intervals move one way
-    /// only, so the slices that meet the range follow one another, and it is enough to look at the one before.
-    [[nodiscard]] bool first_with(const CellRange& range) const {
-        if (before.index >= 0 && before.meets(range, axis)) return false;
-        for (std::size_t k = 0; k < 2; ++k)
-            if (at[k] != std::max(slice.first[k], range.first[(axis + 1 + k) % 3])) return false;
-        return true;
-    }
-};
-
-/// Calls `visitor(cell, visit)` for the cells that the segment may touch, in slices from `from` to `to`. Before each slice the
-/// walk stops if `limit()`, a fraction of the segment, lies before it: all that is still to come is then beyond the limit.
-template <class Limit, class Visitor>
-void walk(const Grid& grid, const Path& path, Limit&& limit, Visitor&& visitor) {
-    const GridShape& shape = grid.shape();
-    Point f{};
-    Point t{};
-    Point d{};
+/// The part of a segment that lies in the level's cells or within `k_pad` of them; `tame` says whether the walk may follow it.
+[[nodiscard]] inline Line clip(const Raster& raster, const Path& path, bool& tame) {
+    Line line{{}, {}, 0, 1};
     double most = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        f[k] = shape.place(k, path.from[k]);
-        t[k] = shape.place(k, path.to[k]);
-        d[k] = t[k] - f[k];
-        most = std::max({most, std::abs(f[k]), std::abs(t[k]), static_cast<double>(shape.cells[k])});
+        line.from[k] = raster.place(k, path.from[k]);
+        const double to = raster.place(k, path.to[k]);
+        line.d[k] = to - line.from[k];
+        most = std::max({most, std::abs(line.from[k]), std::abs(to)});
     }
-    const std::size_t axis =
-        std::abs(d[0]) >= std::abs(d[1]) ? (std::abs(d[0]) >= std::abs(d[2]) ? 0U : 2U)
-                                         : (std::abs(d[1]) >= std::abs(d[2]) ? 1U : 2U);
-    // Not finite (an end that overflows on its way into the grid): pad with infinity, which visits every cell.
-    double pad = 64 * 0x1p-52 * most;
-    const bool tame = std::isfinite(d[0]) && std::isfinite(d[1]) && std::isfinite(d[2]) && pad < 0x1p100;
-    if (!tame) pad = std::numeric_limits<double>::infinity();
+    tame = most < k_furthest;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (std::abs(line.d[k]) < k_flat) continue;
+        const double inverse = 1 / line.d[k];
+        const double s0 = (-k_pad - line.from[k]) * inverse;
+        const double s1 = (raster.cells()[k] + k_pad - line.from[k]) * inverse;
+        line.first = std::max(line.first, std::min(s0, s1));
+        line.last = std::min(line.last, std::max(s0, s1));
+    }
+    return line;
+}
 
-    // The padded interval of places between two fractions, as cells; empty if it lies outside of the grid.
-    const auto interval = [&](std::size_t k, double s0, double s1, int& first, int& last) {
-        double low = -pad;
-        double high = pad;
-        if (tame) {
-            const double p0 = f[k] + s0 * d[k];
-            const double p1 = f[k] + s1 * d[k];
-            low += std::min(p0, p1);
-            high += std::max(p0, p1);
-        }
-        const double cells = shape.cells[k];
-        if (high < 0 || low > cells) return false;
-        first = low >= 1 ? std::min(static_cast<int>(low), shape.cells[k] - 1) : 0;
-        last = high >= cells ? shape.cells[k] - 1 : static_cast<int>(high);
-        return true;
+/// Calls `visitor(range, cull, s)` for the cells on a line that hold something, from its start to its end; s is the fraction at which the
+/// line enters the cell. When it is done with one and `limit()` lies before the next, it stops: all that it has not seen is beyond the
+/// limit. With `once`, `cull` leaves every box that the cells list exactly once; without, those near the line in each cell.
+///
+/// Once: the cells go one way along each axis, so those that list a box follow one another, and it is enough to know the one before.
+template <class Limit, class Visitor>
+void walk(const Level& level, const Line& line, bool once, Limit&& limit, Visitor&& visitor) {
+    const Cell& cells = level.raster().cells();
+    constexpr double k_never = std::numeric_limits<double>::infinity();
+    Cell cell{};
+    Cell step{};        // -1, 0 or 1
+    Point inverse{};
+    Point at{};         // where the line is, in cells
+    double s = line.first;
+    const auto locate = [&](double fraction) {
+        for (std::size_t k = 0; k < 3; ++k) at[k] = line.from[k] + fraction * line.d[k];
     };
-
-    int lowest = 0;
-    int highest = -1;
-    if (!interval(axis, 0, 1, lowest, highest)) return;
-    const bool forward = d[axis] >= 0 || !tame;
-    const std::size_t one = (axis + 1) % 3;
-    const std::size_t two = (axis + 2) % 3;
-    // Shorter than the padding along its main axis: every slice may hold all of it.
-    const bool divisible = tame && std::abs(d[axis]) > 4 * pad;
-
-    Visit visit;
-    visit.axis = axis;
-    std::array<int, 3> cell{};
-    for (int step = 0; step <= highest - lowest; ++step) {
-        const int index = forward ? lowest + step : highest - step;
-        double enter = 0;
-        double leave = 1;
-        if (divisible) {
-            const double s0 = (index - pad - f[axis]) / d[axis];
-            const double s1 = (index + 1 + pad - f[axis]) / d[axis];
-            enter = std::clamp(std::min(s0, s1), 0.0, 1.0);
-            leave = std::clamp(std::max(s0, s1), 0.0, 1.0);
-        }
-        if (enter > limit()) return;
-        visit.before = visit.slice;
-        visit.slice.index = -1;
-        Slice slice;
-        if (!interval(one, enter, leave, slice.first[0], slice.last[0]) ||
-            !interval(two, enter, leave, slice.first[1], slice.last[1]))
-            continue;
-        slice.index = index;
-        visit.slice = slice;
-        cell[axis] = index;
-        for (cell[two] = slice.first[1]; cell[two] <= slice.last[1]; ++cell[two])
-            for (cell[one] = slice.first[0]; cell[one] <= slice.last[0]; ++cell[one]) {
-                visit.at = {cell[one], cell[two]};
-                visitor(shape.index(cell[0], cell[1], cell[2]), visit);
+    Cull unseen = cull_none();
+    locate(s);
+    for (std::size_t k = 0; k < 3; ++k) {
+        cell[k] = std::clamp(static_cast<int>(at[k]), 0, cells[k] - 1);
+        if (std::abs(line.d[k]) < k_flat) continue;
+        step[k] = line.d[k] > 0 ? 1 : -1;
+        inverse[k] = 1 / line.d[k];
+    }
+    // The fraction at which the line leaves the cells from `low` to `high` along an axis.
+    const auto leaves = [&](std::size_t k, int low, int high) {
+        if (step[k] == 0) return k_never;
+        const double wall = step[k] > 0 ? (high + 1 >= cells[k] ? cells[k] + k_pad : high + 1) : (low <= 0 ? -k_pad : low);
+        return (wall - line.from[k]) * inverse[k];
+    };
+    for (;;) {
+        const Brick& brick = level.brick_of(cell);
+        const std::uint64_t bit = Level::bit_of(cell);
+        Cell low = cell;
+        Cell high = cell;
+        if (brick.empty != 0) {
+            const int reach = static_cast<int>(brick.empty) * 4 - 4;
+            for (std::size_t k = 0; k < 3; ++k) {
+                low[k] = (cell[k] & ~3) - reach;
+                high[k] = (cell[k] | 3) + reach;
             }
+        }
+        const Point out = {leaves(0, low[0], high[0]), leaves(1, low[1], high[1]), leaves(2, low[2], high[2])};
+        const std::size_t axis = out[0] < out[1] ? (out[0] < out[2] ? 0 : 2) : (out[1] < out[2] ? 1 : 2);
+        const double leave = std::min(out[axis], line.last);
+        const Point before = at;
+        locate(leave);
+        if ((brick.cells & bit) != 0 && once) {
+            visitor(level.range(level.number(brick, bit)), unseen, s);
+        } else if ((brick.cells & bit) != 0) {
+            Steps box{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                // In steps of the cell, and never far from it: 2^10 makes the truncation a rounding down.
+                const double corner = cell[k];
+                box.low[k] = static_cast<int>((std::min(before[k], at[k]) - corner) * k_steps + 1023) - 1024;
+                box.high[k] = static_cast<int>((std::max(before[k], at[k]) - corner) * k_steps + 1025) - 1024;
+            }
+            visitor(level.range(level.number(brick, bit)), cull_of(box, {0, 0, 0}), s);
+        }
+        if (!(out[axis] < line.last) || limit() < leave) return;
+        s = leave;
+        const int next = step[axis] > 0 ? high[axis] + 1 : low[axis] - 1;
+        if (next < 0 || next >= cells[axis]) return;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (step[k] == 0 || brick.empty == 0) continue;
+            const int place = static_cast<int>(at[k]);
+            cell[k] = step[k] > 0 ? std::clamp(place, cell[k], std::min(high[k], cells[k] - 1))
+                                  : std::clamp(place, std::max(low[k], 0), cell[k]);
+        }
+        cell[axis] = next;
+        unseen = brick.empty == 0 ? cull_seen(axis, step[axis]) : cull_none();
     }
 }
 

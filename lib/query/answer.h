@@ -9,40 +9,46 @@
 
 namespace pierce::detail {
 
-template <class Scalar>
-[[nodiscard]] Hit<Scalar> reported(const Scene& scene, const Path& path, const Candidate& candidate) {
-    return report<Scalar>(path, scene.corners(candidate.triangle), scene.prepared[candidate.triangle],
-                          candidate.decision, scene.face_of(candidate.triangle), candidate.triangle);
-}
-
-/// Sets the verified point. `passed(triangle)` says which triangles are hit strictly before this one, and so on the way to any point
-/// near it.
+/// The hit of a candidate. `passed(triangle)` says which triangles are hit strictly before it, and so on the way to any point near
+/// it. With a complete `shortlist` of the query's triangles the grid is not asked again.
 template <class Kernel, class Scalar, class Passed>
-void place(const Scene& scene, Hit<Scalar>& hit, const Path& path, const Passed& passed, const QueryOptions& options,
-           QueryCounters& counters) {
+[[nodiscard]] Hit<Scalar> answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Passed& passed,
+                                 const QueryOptions& options, QueryCounters& counters, const Shortlist* shortlist = nullptr) {
+    const std::uint32_t triangle = candidate.triangle;
+    const Corners corners = scene.corners(triangle);
+    const Point normal = normal_of<Scalar>(corners);
+    Hit<Scalar> hit = report<Scalar>(path, corners, normal, candidate.decision, scene.face_of(triangle),
+                                     scene.triangle_numbers[triangle]);
     QueryOptions whole = options;
     whole.max_fraction = 1;  // a nearer limit was meant for the caller's own segment
-    const auto side = [&](const Point& point) { return Kernel::side(scene, hit.triangle, point); };
+    const auto side = [&](const Point& point) { return Kernel::side(corners, point); };
     const auto clear = [&](const Point& point) {
-        Any any(passed, hit.triangle);  // verify() has seen to the hit's own triangle
-        traverse<Kernel>(scene, {path.from, point}, whole, counters, any);
+        Search<Scalar> search(scene, {path.from, point}, options.sides);
+        Any any(passed, triangle);  // verify() has seen to the hit's own triangle
+        if (shortlist != nullptr && shortlist->complete) {
+            search.probe.unit = Kernel::unit;
+            test_triangles<Kernel>(search, shortlist->ids.data(), shortlist->count, whole, counters, any);
+        } else {
+            traverse<Kernel>(search, whole, counters, any);
+        }
         return !any.found();
     };
-    const int tries = verify(hit, path, scene.prepared[hit.triangle].normal, side, clear);
+    const int tries = verify(hit, path, normal, side, clear);
     counters.retreats += static_cast<std::uint64_t>(tries);
+    return hit;
 }
 
 [[nodiscard]] inline bool none_passed(std::uint32_t) { return false; }
 
 template <class Kernel, class Scalar>
-[[nodiscard]] std::optional<Hit<Scalar>> first_answer(const Scene& scene, const Path& path, const QueryOptions& options,
+[[nodiscard]] std::optional<Hit<Scalar>> first_answer(const Scene<Scalar>& scene, const Path& path, const QueryOptions& options,
                                                       QueryCounters& counters) {
-    First first(scene, path, counters);
-    traverse<Kernel>(scene, path, options, counters, first);
+    Search<Scalar> search(scene, path, options.sides);
+    First<Scalar> first(scene, path, counters);
+    Shortlist shortlist;
+    traverse<Kernel>(search, options, counters, first, &shortlist);
     if (!first.found()) return std::nullopt;
-    Hit<Scalar> hit = reported<Scalar>(scene, path, first.best());
-    place<Kernel>(scene, hit, path, none_passed, options, counters);
-    return hit;
+    return answer<Kernel>(scene, path, first.best(), none_passed, options, counters, &shortlist);
 }
 
 }  // namespace pierce::detail

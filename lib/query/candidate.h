@@ -22,7 +22,8 @@ struct Candidate {
 }
 
 /// Whether x comes before y: by the exact fraction, then the caller's face number, then the triangle.
-[[nodiscard]] inline bool comes_before(const Scene& scene, const Path& path, const Candidate& x, const Candidate& y,
+template <class Scalar>
+[[nodiscard]] bool comes_before(const Scene<Scalar>& scene, const Path& path, const Candidate& x, const Candidate& y,
                                        QueryCounters& counters) {
     if (x.latest < y.earliest) return true;
     if (y.latest < x.earliest || x.triangle == y.triangle) return false;
@@ -31,7 +32,7 @@ struct Candidate {
     if (order != 0) return order < 0;
     const std::uint32_t face_x = scene.face_of(x.triangle);
     const std::uint32_t face_y = scene.face_of(y.triangle);
-    return face_x != face_y ? face_x < face_y : x.triangle < y.triangle;
+    return face_x != face_y ? face_x < face_y : scene.triangle_numbers[x.triangle] < scene.triangle_numbers[y.triangle];
 }
 
 }  // namespace pierce::detail

@@ -6,19 +6,21 @@
 
 #include <pierce/hit.h>
 #include <query/candidate.h>
-#include <grid/walk.h>
 
 namespace pierce::detail {
 
 /// Keeps the hit that comes before all others.
+template <class Scalar>
 class First {
   public:
-    First(const Scene& scene, const Path& path, QueryCounters& counters)
+    static constexpr bool once = false;
+
+    First(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters)
         : scene_(scene), path_(path), counters_(counters) {}
 
     [[nodiscard]] double limit() const { return best_.latest; }
     [[nodiscard]] bool wants(std::uint32_t) const { return true; }
-    void add(const Candidate& candidate, const Visit&) {
+    void add(const Candidate& candidate) {
         if (found_ && !comes_before(scene_, path_, candidate, best_, counters_)) return;
         best_ = candidate;
         found_ = true;
@@ -27,7 +29,7 @@ class First {
     [[nodiscard]] const Candidate& best() const { return best_; }
 
   private:
-    const Scene& scene_;
+    const Scene<Scalar>& scene_;
     const Path& path_;
     QueryCounters& counters_;
     Candidate best_;
@@ -38,13 +40,14 @@ class First {
 template <class Passed>
 class Any {
   public:
+    static constexpr bool once = false;
     static constexpr std::uint32_t k_no_triangle = ~std::uint32_t{0};
 
     explicit Any(Passed passed, std::uint32_t own = k_no_triangle) : passed_(passed), own_(own) {}
 
     [[nodiscard]] double limit() const { return found_ ? -1 : 1; }
     [[nodiscard]] bool wants(std::uint32_t triangle) const { return !found_ && triangle != own_; }
-    void add(const Candidate& candidate, const Visit&) { found_ = !passed_(candidate.triangle); }
+    void add(const Candidate& candidate) { found_ = !passed_(candidate.triangle); }
     [[nodiscard]] bool found() const { return found_; }
 
   private:
@@ -53,19 +56,19 @@ class Any {
     bool found_ = false;
 };
 
-/// Counts every hit once and keeps the first ones, in order, in `out`. Of those it fills what it needs itself: triangle, feature, side,
+/// Counts every hit and keeps the first ones, in order, in `out`. Of those it fills what it needs itself: triangle (the library's number), feature, side,
 /// at_start and exact_fraction.
 template <class Scalar>
 class All {
   public:
-    All(const Scene& scene, const Path& path, std::span<Hit<Scalar>> out, QueryCounters& counters)
+    static constexpr bool once = true;
+
+    All(const Scene<Scalar>& scene, const Path& path, std::span<Hit<Scalar>> out, QueryCounters& counters)
         : scene_(scene), path_(path), out_(out), counters_(counters) {}
 
     [[nodiscard]] double limit() const { return 1; }
     [[nodiscard]] bool wants(std::uint32_t) const { return true; }
-    void add(const Candidate& candidate, const Visit& visit) {
-        const Corners corners = scene_.corners(candidate.triangle);
-        if (!visit.first_with(scene_.grid.shape().range(box_of(corners)))) return;
+    void add(const Candidate& candidate) {
         ++total_;
         // Insertion from the end: hits come roughly in order.
         std::size_t place = kept_;
@@ -81,7 +84,7 @@ class All {
         hit.feature = candidate.decision.feature;
         hit.feature_index = candidate.decision.feature_index;
         hit.at_start = candidate.decision.at_start;
-        hit.exact_fraction = static_cast<Scalar>(measure(path_, corners).fraction);
+        hit.exact_fraction = static_cast<Scalar>(measure(path_, scene_.corners(candidate.triangle)).fraction);
     }
     [[nodiscard]] std::size_t total() const { return total_; }
     [[nodiscard]] std::size_t kept_count() const { return kept_; }
@@ -100,7 +103,7 @@ class All {
     }
 
   private:
-    const Scene& scene_;
+    const Scene<Scalar>& scene_;
     const Path& path_;
     std::span<Hit<Scalar>> out_;
     QueryCounters& counters_;

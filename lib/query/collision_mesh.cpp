@@ -15,7 +15,7 @@ using namespace detail;
 
 template <class Scalar>
 struct CollisionMesh<Scalar>::Impl {
-    Scene scene;
+    Scene<Scalar> scene;
     mutable std::atomic<std::uint64_t> invalid_queries = 0;
 
     // Whether a query has a meaning; one with a coordinate that is not finite is counted.
@@ -124,19 +124,30 @@ std::vector<FaceVerdict> CollisionMesh<Scalar>::explain(const Segment<Scalar>& s
 template <class Scalar>
 MeshReport CollisionMesh<Scalar>::mesh_report() const {
     const StandardArithmetic standard;
-    return report_on(impl_->scene.positions, impl_->scene.triangles, std::numeric_limits<Scalar>::epsilon());
+    const Scene<Scalar>& scene = impl_->scene;
+    // A vertex that no triangle has is taken for one that some has: nothing is said about it.
+    std::vector<Point> positions(scene.vertex_count, scene.triangles.empty() ? Point{} : scene.corners(0)[0]);
+    std::vector<IndexTriple> triangles(scene.triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        const Corners corners = scene.corners(i);
+        triangles[scene.triangle_numbers[i]] = scene.triangles[i];
+        for (std::size_t k = 0; k < 3; ++k) positions[scene.triangles[i][k]] = corners[k];
+    }
+    return report_on(positions, triangles, std::numeric_limits<Scalar>::epsilon());
 }
 
 template <class Scalar>
 MeshStatistics CollisionMesh<Scalar>::statistics() const noexcept {
-    const Scene& scene = impl_->scene;
+    const Scene<Scalar>& scene = impl_->scene;
     MeshStatistics s;
-    s.vertices = scene.positions.size();
+    s.vertices = scene.vertex_count;
     s.faces = scene.face_count;
     s.triangles = scene.triangles.size();
     s.degenerate = scene.degenerate;
-    for (std::size_t k = 0; k < 3; ++k) s.grid_cells[k] = static_cast<std::uint32_t>(scene.grid.shape().cells[k]);
-    s.grid_references = scene.grid.entry_count();
+    s.grid_levels = scene.grid.levels().size();
+    for (const Level& level : scene.grid.levels()) s.grid_references += level.reference_count();
+    if (!scene.grid.empty()) s.cell_size = scene.grid.levels().front().raster().least_size();
+    s.backend = scene.backend->name;
     s.bytes = scene.bytes();
     s.invalid_queries = impl_->invalid_queries.load(std::memory_order_relaxed);
     return s;

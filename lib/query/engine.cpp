@@ -3,61 +3,67 @@
 
 #include <limits>
 
+#include <exact/crossing.h>
 #include <query/answer.h>
 
 namespace pierce::detail {
 
 template <class Scalar>
-std::optional<Hit<Scalar>> first_hit(const Scene& scene, const Segment<Scalar>& segment, const QueryOptions& options,
+std::optional<Hit<Scalar>> first_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
                                      QueryCounters& counters) {
     return first_answer<Certified, Scalar>(scene, to_path(segment), options, counters);
 }
 
 template <class Scalar>
-bool any_hit(const Scene& scene, const Segment<Scalar>& segment, const QueryOptions& options,
+bool any_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
              QueryCounters& counters) {
+    Search<Scalar> search(scene, to_path(segment), options.sides);
     Any any(none_passed);
-    traverse<Certified>(scene, to_path(segment), options, counters, any);
+    traverse<Certified>(search, options, counters, any);
     return any.found();
 }
 
 template <class Scalar>
-std::size_t all_hits(const Scene& scene, const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
+std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
                      const QueryOptions& options, QueryCounters& counters) {
     const Path path = to_path(segment);
+    Search<Scalar> search(scene, path, options.sides);
     All<Scalar> all(scene, path, out, counters);
-    traverse<Certified>(scene, path, options, counters, all);
+    traverse<Certified>(search, options, counters, all);
     for (std::size_t i = 0; i < all.kept_count(); ++i) {
         const Candidate candidate = all.kept(i);
         const auto passed = [&](std::uint32_t triangle) {
             Candidate other;
-            if (!Certified::test(scene, triangle, path, options.sides, 1, counters, other)) return false;
+            if (!Certified::test(scene.corners(triangle), triangle, path, options.sides, 1, counters, other)) return false;
             if (other.latest < candidate.earliest) return true;
             return other.earliest <= candidate.latest &&
                    compare_fractions(path, scene.corners(triangle), scene.corners(candidate.triangle)) < 0;
         };
-        out[i] = reported<Scalar>(scene, path, candidate);
-        place<Certified>(scene, out[i], path, passed, options, counters);
+        out[i] = answer<Certified>(scene, path, candidate, passed, options, counters);
     }
     return all.total();
 }
 
 namespace {
 
-int crossings_of(const Scene& scene, const Path& path, QueryCounters& counters) {
+template <class Scalar>
+int crossings_of(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters) {
     int sum = 0;
+    Search<Scalar> search(scene, path, Sides::both);
     // The move is infinitesimal: a path that does not even touch a closed triangle does not cross it when moved either.
-    visit_near(scene, path, [] { return 1.0; }, counters, [&](std::uint32_t triangle, const Visit& visit) {
-        ++counters.triangles;
-        const Filtered filtered = filter(scene.prepared[triangle], path, Sides::both);
-        if (filtered.verdict == Verdict::miss) return;
-        const Corners corners = scene.corners(triangle);
-        if (!visit.first_with(scene.grid.shape().range(box_of(corners)))) return;
-        if (filtered.verdict == Verdict::hit) {
-            sum += filtered.side == Sides::front ? 1 : -1;
-        } else {
-            ++counters.exact_decisions;
-            sum += crossing(path, corners);
+    visit_near(search, true, [] { return 1.0; }, counters, nullptr, [&](const std::uint32_t* ids, unsigned count) {
+        std::array<std::uint32_t, 128> left;
+        const unsigned found = scene.backend->refine(search.probe, scene.coordinates.data(), ids, count, left.data());
+        counters.triangles += count;
+        for (unsigned i = 0; i < found; ++i) {
+            const Corners corners = scene.corners(left[i]);
+            const Filtered filtered = filter(corners, path, Sides::both);
+            if (filtered.verdict == Verdict::hit) {
+                sum += filtered.side == Sides::front ? 1 : -1;
+            } else if (filtered.verdict == Verdict::doubtful) {
+                ++counters.exact_decisions;
+                sum += crossing(path, corners);
+            }
         }
     });
     return sum;
@@ -66,12 +72,12 @@ int crossings_of(const Scene& scene, const Path& path, QueryCounters& counters) 
 }  // namespace
 
 template <class Scalar>
-int crossings(const Scene& scene, const Segment<Scalar>& segment, QueryCounters& counters) {
+int crossings(const Scene<Scalar>& scene, const Segment<Scalar>& segment, QueryCounters& counters) {
     return crossings_of(scene, to_path(segment), counters);
 }
 
 template <class Scalar>
-int winding_number(const Scene& scene, const Vec3<Scalar>& at, QueryCounters& counters) {
+int winding_number(const Scene<Scalar>& scene, const Vec3<Scalar>& at, QueryCounters& counters) {
     const Point point = to_point(at);
     if (scene.grid.empty()) return 0;
     // Outside of the box, on the shortest way along an axis: in the infinitesimal step's sense a point on the box's upper side is
@@ -94,17 +100,17 @@ int winding_number(const Scene& scene, const Vec3<Scalar>& at, QueryCounters& co
     return -crossings_of(scene, way, counters);
 }
 
-template std::optional<Hit<float>> first_hit(const Scene&, const Segment<float>&, const QueryOptions&, QueryCounters&);
-template bool any_hit(const Scene&, const Segment<float>&, const QueryOptions&, QueryCounters&);
-template std::size_t all_hits(const Scene&, const Segment<float>&, std::span<Hit<float>>, const QueryOptions&,
+template std::optional<Hit<float>> first_hit(const Scene<float>&, const Segment<float>&, const QueryOptions&, QueryCounters&);
+template bool any_hit(const Scene<float>&, const Segment<float>&, const QueryOptions&, QueryCounters&);
+template std::size_t all_hits(const Scene<float>&, const Segment<float>&, std::span<Hit<float>>, const QueryOptions&,
                               QueryCounters&);
-template int crossings(const Scene&, const Segment<float>&, QueryCounters&);
-template int winding_number(const Scene&, const Vec3<float>&, QueryCounters&);
-template std::optional<Hit<double>> first_hit(const Scene&, const Segment<double>&, const QueryOptions&, QueryCounters&);
-template bool any_hit(const Scene&, const Segment<double>&, const QueryOptions&, QueryCounters&);
-template std::size_t all_hits(const Scene&, const Segment<double>&, std::span<Hit<double>>, const QueryOptions&,
+template int crossings(const Scene<float>&, const Segment<float>&, QueryCounters&);
+template int winding_number(const Scene<float>&, const Vec3<float>&, QueryCounters&);
+template std::optional<Hit<double>> first_hit(const Scene<double>&, const Segment<double>&, const QueryOptions&, QueryCounters&);
+template bool any_hit(const Scene<double>&, const Segment<double>&, const QueryOptions&, QueryCounters&);
+template std::size_t all_hits(const Scene<double>&, const Segment<double>&, std::span<Hit<double>>, const QueryOptions&,
                               QueryCounters&);
-template int crossings(const Scene&, const Segment<double>&, QueryCounters&);
-template int winding_number(const Scene&, const Vec3<double>&, QueryCounters&);
+template int crossings(const Scene<double>&, const Segment<double>&, QueryCounters&);
+template int winding_number(const Scene<double>&, const Vec3<double>&, QueryCounters&);
 
 }  // namespace pierce::detail

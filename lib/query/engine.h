@@ -14,25 +14,25 @@
 namespace pierce::detail {
 
 template <class Scalar>
-[[gnu::noinline]] std::optional<Hit<Scalar>> first_hit(const Scene& scene, const Segment<Scalar>& segment,
+[[gnu::noinline]] std::optional<Hit<Scalar>> first_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
                                                        const QueryOptions& options, QueryCounters& counters);
 
 template <class Scalar>
-[[gnu::noinline]] bool any_hit(const Scene& scene, const Segment<Scalar>& segment, const QueryOptions& options,
+[[gnu::noinline]] bool any_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
                                QueryCounters& counters);
 
 template <class Scalar>
-[[gnu::noinline]] std::size_t all_hits(const Scene& scene, const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
+[[gnu::noinline]] std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
                                        const QueryOptions& options, QueryCounters& counters);
 
 template <class Scalar>
-[[gnu::noinline]] int crossings(const Scene& scene, const Segment<Scalar>& segment, QueryCounters& counters);
+[[gnu::noinline]] int crossings(const Scene<Scalar>& scene, const Segment<Scalar>& segment, QueryCounters& counters);
 
 template <class Scalar>
-[[gnu::noinline]] int winding_number(const Scene& scene, const Vec3<Scalar>& point, QueryCounters& counters);
+[[gnu::noinline]] int winding_number(const Scene<Scalar>& scene, const Vec3<Scalar>& point, QueryCounters& counters);
 
 template <class Scalar>
-[[gnu::noinline]] std::vector<FaceVerdict> explain(const Scene& scene, const Segment<Scalar>& segment,
+[[gnu::noinline]] std::vector<FaceVerdict> explain(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
                                                    const QueryOptions& options, QueryCounters& counters);
 
 }  // namespace pierce::detail

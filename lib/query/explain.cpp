@@ -33,8 +33,9 @@ namespace detail {
 namespace {
 
 // Why a triangle is not hit at all; `later` stands for one that is. The same signs as in decide(), in the same order.
-FaceVerdict refusal(const Scene& scene, const Path& path, std::uint32_t triangle, const QueryOptions& options) {
-    FaceVerdict verdict{scene.face_of(triangle), triangle, Reason::later};
+template <class Scalar>
+FaceVerdict refusal(const Scene<Scalar>& scene, const Path& path, std::uint32_t triangle, const QueryOptions& options) {
+    FaceVerdict verdict{scene.face_of(triangle), scene.triangle_numbers[triangle], Reason::later};
     const Corners corners = scene.corners(triangle);
     if (has_zero_area(corners)) {
         verdict.reason = Reason::zero_area;
@@ -69,20 +70,21 @@ FaceVerdict refusal(const Scene& scene, const Path& path, std::uint32_t triangle
 }  // namespace
 
 template <class Scalar>
-std::vector<FaceVerdict> explain(const Scene& scene, const Segment<Scalar>& segment, const QueryOptions& options,
+std::vector<FaceVerdict> explain(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
                                  QueryCounters& counters) {
     const Path path = to_path(segment);
-    First first(scene, path, counters);
-    traverse<Certified>(scene, path, options, counters, first);
+    Search<Scalar> search(scene, path, options.sides);
+    First<Scalar> first(scene, path, counters);
+    traverse<Certified>(search, options, counters, first);
 
     std::vector<std::uint32_t> near;
-    visit_near(scene, path, [] { return 1.0; }, counters,
-               [&](std::uint32_t triangle, const Visit&) { near.push_back(triangle); });
+    visit_near(search, true, [] { return 1.0; }, counters, nullptr,
+               [&](const std::uint32_t* ids, unsigned count) { near.insert(near.end(), ids, ids + count); });
     // The grid does not list triangles without area.
-    for (std::uint32_t i = 0; scene.degenerate > 0 && i < scene.triangles.size(); ++i)
-        if (overlap(box_of(path), box_of(scene.corners(i))) && has_zero_area(scene.corners(i))) near.push_back(i);
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
+    for (auto i = static_cast<std::uint32_t>(scene.triangles.size() - scene.degenerate); i < scene.triangles.size(); ++i)
+        if (overlap(box_of(path), box_of(scene.corners(i)))) near.push_back(i);
+    std::sort(near.begin(), near.end(),
+              [&](std::uint32_t x, std::uint32_t y) { return scene.triangle_numbers[x] < scene.triangle_numbers[y]; });
 
     std::vector<FaceVerdict> verdicts;
     verdicts.reserve(near.size());
@@ -100,8 +102,8 @@ std::vector<FaceVerdict> explain(const Scene& scene, const Segment<Scalar>& segm
     return verdicts;
 }
 
-template std::vector<FaceVerdict> explain(const Scene&, const Segment<float>&, const QueryOptions&, QueryCounters&);
-template std::vector<FaceVerdict> explain(const Scene&, const Segment<double>&, const QueryOptions&, QueryCounters&);
+template std::vector<FaceVerdict> explain(const Scene<float>&, const Segment<float>&, const QueryOptions&, QueryCounters&);
+template std::vector<FaceVerdict> explain(const Scene<double>&, const Segment<double>&, const QueryOptions&, QueryCounters&);
 
 }  // namespace detail
 

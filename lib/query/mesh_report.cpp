@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <sstream>
 #include <tuple>
 
 #include <exact/decide.h>
 #include <grid/grid.h>
+#include <grid/walk.h>
 
 namespace pierce {
 
@@ -172,32 +174,35 @@ class Reporter {
     }
 
     void look_at_borders() {
-        std::vector<Box> boxes;
-        std::vector<std::uint32_t> numbers(border_.size());
-        std::iota(numbers.begin(), numbers.end(), 0U);
+        std::vector<PlainBox<double>> boxes;
         std::vector<std::uint32_t> vertices;
         for (const MeshReport::Edge& edge : border_) {
             vertices.insert(vertices.end(), edge.begin(), edge.end());
             const double slack = 2 * rounding(edge);
-            Box box{};
+            PlainBox<double> box{};
+            constexpr double k_most = std::numeric_limits<double>::max();
             for (std::size_t k = 0; k < 3; ++k) {
-                box.low[k] = std::min(positions_[edge[0]][k], positions_[edge[1]][k]) - slack;
-                box.high[k] = std::max(positions_[edge[0]][k], positions_[edge[1]][k]) + slack;
+                box.low[k] = std::min(positions_[edge[0]][k], positions_[edge[1]][k]);
+                box.high[k] = std::max(positions_[edge[0]][k], positions_[edge[1]][k]);
+                box.low[k] = std::max(box.low[k] - slack, -k_most);
+                box.high[k] = std::min(box.high[k] + slack, k_most);
             }
             boxes.push_back(box);
         }
         std::sort(vertices.begin(), vertices.end());
         vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        const Grid grid(boxes, numbers, {{0, 0, 0}, 256 * boxes.size() + 4096});
+        const Grid grid(std::span<const PlainBox<double>>(boxes), {0, 256 * boxes.size() + 4096}, {});
         for (const std::uint32_t v : vertices) {
-            const Point& p = positions_[v];
-            const GridShape& shape = grid.shape();
-            const std::size_t cell = shape.index(shape.cell(0, p[0]), shape.cell(1, p[1]), shape.cell(2, p[2]));
-            for (const std::uint32_t i : grid.list(cell))
-                if (lies_on(v, border_[i])) {
-                    note(report_.t_junctions, report_.t_junction_list, v);
-                    break;
-                }
+            bool found = false;
+            for (const Level& level : grid.levels()) {
+                const Steps at = level.raster().steps(positions_[v], positions_[v]);
+                if (level.raster().outside(at)) continue;
+                const Cell cell = level.raster().cell_of(at.low);
+                visit_block(level, at, cell, cell, [&](const Range& range, const Cull&) {
+                    for (std::uint32_t i = range.begin; i < range.end && !found; ++i) found = lies_on(v, border_[*level.ids({i, i})]);
+                });
+            }
+            if (found) note(report_.t_junctions, report_.t_junction_list, v);
         }
     }
 

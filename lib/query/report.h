@@ -7,6 +7,7 @@
 
 #include <exact/decide.h>
 #include <exact/fraction.h>
+#include <exact/planes.h>
 #include <kernel/filter.h>
 #include <pierce/hit.h>
 
@@ -14,34 +15,38 @@ namespace pierce::detail {
 
 /// The values of a hit before they are rounded to float, from the filter's numbers, if those are good enough: the fraction within
 /// 2^-30 of itself, the weights within 2^-28 of 1. That is below a tenth of a float's last place.
-[[nodiscard]] inline bool measure_for_float(const PreparedTriangle& triangle, const Path& path, Measures& measures) {
-    const Evaluated v(triangle, path);
-    const double sign = v.f0 > v.f1 ? 1 : -1;
-    const double d = sign * (v.f0 - v.f1);
-    const double f0 = sign * v.f0;
-    const double wc = sign * v.weight_c();
-    const double wa = sign * v.weight_a();
-    const double ec = v.weight_c_error();
-    const double ea = v.weight_a_error();
-    // x / D with x off by ex and D by 3e (filter.h, 2) is off by less than (ex + 3e) / (D - 3e), as x <= D.
-    const double least = d - 3 * v.e;
-    if (!(v.in_range() && least > 0 && 4 * v.e <= 0x1p-30 * f0 * (least / d))) return false;
-    if (!(7 * v.e + 1.25 * (ec + ea) <= 0x1p-28 * least)) return false;
-    const auto share = [d](double weight) { return std::clamp(weight / d, 0.0, 1.0); };
-    measures = {f0 / d, {share(wa), share((d - wc) - wa), share(wc)}};
+[[nodiscard]] inline bool measure_for_float(const Corners& corners, const Path& path, Measures& measures) {
+    const Volumes64 x(corners, path);
+    const double s = std::abs(x.s);
+    const double start = x.s < 0 ? -x.v : x.v;
+    // x / s with x off by ex and s by es (filter.h) is off by less than (ex + es) / (s - es), as x <= s; x / s itself by its part.
+    const double least = s - x.es;
+    if (!(x.in_range && least > 0 && start > 0 && x.ev * s + x.es * start <= 0x1p-31 * start * least)) return false;
+    if (!(x.e + x.es <= 0x1p-29 * least)) return false;
+    const auto share = [&](std::size_t k) { return std::clamp(x.weight[k] / x.s, 0.0, 1.0); };
+    measures = {start / s, {share(0), share(1), share(2)}};
     return true;
 }
 
-/// Everything but `fraction` and `point`.
+/// The face's normal up to a factor, each component within 2^-28 (for float) or 2^-52 (for double) of the largest.
 template <class Scalar>
-[[nodiscard]] Hit<Scalar> report(const Path& path, const Corners& corners, const PreparedTriangle& prepared,
-                                 const Decision& decision, std::uint32_t face, std::uint32_t triangle) {
+[[nodiscard]] Point normal_of(const Corners& corners) {
+    if constexpr (std::is_same_v<Scalar, float>) {
+        const Normal n(corners);
+        if (n.certain && n.error <= 0x1p-29 * Volumes64::largest(n.normal)) return n.normal;
+    }
+    return exact_planes(corners).normal;
+}
+
+/// Everything but `fraction` and `point`; `normal` is that of `normal_of`.
+template <class Scalar>
+[[nodiscard]] Hit<Scalar> report(const Path& path, const Corners& corners, const Point& normal, const Decision& decision,
+                                 std::uint32_t face, std::uint32_t triangle) {
     Measures measures{};
     // On an edge or at the start some values are exactly 0, which only exact arithmetic gives.
     const bool plain = decision.feature == Feature::face && !decision.at_start;
-    if (!(std::is_same_v<Scalar, float> && plain && measure_for_float(prepared, path, measures)))
+    if (!(std::is_same_v<Scalar, float> && plain && measure_for_float(corners, path, measures)))
         measures = measure(path, corners);
-    const Point& normal = prepared.normal;
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     Hit<Scalar> hit{};
     for (int k = 0; k < 3; ++k) {

@@ -2,61 +2,110 @@
 #include <query/scene.h>
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_set>
 
 #include <exact/decide.h>
+#include <kernel/filter.h>
 #include <mesh/check_mesh.h>
 
 namespace pierce::detail {
 
 namespace {
 
-std::size_t count_faces(const Scene& scene) {
+constexpr std::size_t k_chunk = 1 << 14;
+
+template <class Scalar>
+std::size_t count_faces(const Scene<Scalar>& scene) {
     if (scene.faces.empty()) return scene.triangles.size();
     std::unordered_set<std::uint32_t> different(scene.faces.begin(), scene.faces.end());
     return different.size();
 }
 
+template <class Scalar>
+std::vector<PlainBox<Scalar>> make_boxes(const MeshView<Scalar>& mesh, const Executor& executor) {
+    std::vector<PlainBox<Scalar>> boxes(mesh.triangles.size());
+    executor((boxes.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
+        const std::size_t end = std::min(boxes.size(), (chunk + 1) * k_chunk);
+        for (std::size_t i = chunk * k_chunk; i < end; ++i) {
+            const IndexTriple& t = mesh.triangles[i];
+            const Scalar* a = mesh.positions[t[0]].data();
+            const Scalar* b = mesh.positions[t[1]].data();
+            const Scalar* c = mesh.positions[t[2]].data();
+            PlainBox<Scalar>& box = boxes[i];
+            for (std::size_t k = 0; k < 3; ++k) {
+                box.low[k] = std::min(std::min(a[k], b[k]), c[k]);
+                box.high[k] = std::max(std::max(a[k], b[k]), c[k]);
+            }
+            const Corners corners = {to_point(mesh.positions[t[0]]), to_point(mesh.positions[t[1]]), to_point(mesh.positions[t[2]])};
+            if (!Normal(corners).has_area() && has_zero_area(corners)) box = {{1, 1, 1}, {0, 0, 0}};
+        }
+    });
+    return boxes;
+}
+
+// Copies the mesh in the order of the grid.
+template <class Scalar>
+void copy_in_order(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const Executor& executor) {
+    const std::size_t count = mesh.triangles.size();
+    scene.triangles.resize(count);
+    scene.coordinates.resize(9 * count + 1);
+    executor((count + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
+        const std::size_t end = std::min(count, (chunk + 1) * k_chunk);
+        for (std::size_t i = chunk * k_chunk; i < end; ++i) {
+            const IndexTriple& t = mesh.triangles[scene.triangle_numbers[i]];
+            scene.triangles[i] = t;
+            Scalar* to = &scene.coordinates[9 * i];
+            for (const std::uint32_t vertex : t) to = std::copy_n(mesh.positions[vertex].data(), 3, to);
+        }
+    });
+    scene.vertex_count = mesh.positions.size();
+}
+
+// Exact whatever the numbers: the exponent of the cell, taken from the bits.
+float scale_for(const Grid& grid) {
+    if (grid.empty()) return 1;
+    const Raster& raster = grid.levels().front().raster();
+    const double cell = std::max({raster.size(0), raster.size(1), raster.size(2)});
+    const int power = std::isfinite(cell) ? std::clamp(-std::ilogb(cell), -100, 100) : -100;
+    return static_cast<float>(std::ldexp(1.0, power));
+}
+
 }  // namespace
 
-std::size_t Scene::bytes() const {
-    return sizeof(Scene) + positions.capacity() * sizeof(Point) + triangles.capacity() * sizeof(IndexTriple) +
-           faces.capacity() * sizeof(std::uint32_t) + prepared.capacity() * sizeof(PreparedTriangle) + grid.bytes();
+template <class Scalar>
+std::size_t Scene<Scalar>::bytes() const {
+    return sizeof(*this) + coordinates.capacity() * sizeof(Scalar) + triangles.capacity() * sizeof(IndexTriple) +
+           (triangle_numbers.capacity() + faces.capacity()) * sizeof(std::uint32_t) + grid.bytes();
 }
 
 template <class Scalar>
-Scene make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options) {
+Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options) {
     check_mesh(mesh);
-    Scene scene;
-    scene.positions.reserve(mesh.positions.size());
-    for (const Vec3<Scalar>& position : mesh.positions) scene.positions.push_back(to_point(position));
-    scene.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+    if (!(options.cell_size >= 0)) throw MeshError("BuildOptions::cell_size must be 0 or more");
+    Scene<Scalar> scene;
+    scene.backend = &choose_backend(options.backend);
     scene.faces.assign(mesh.faces.begin(), mesh.faces.end());
-    scene.prepared.resize(scene.triangles.size());
 
-    std::vector<Box> boxes;
-    std::vector<std::uint32_t> numbers;
-    boxes.reserve(scene.triangles.size());
-    numbers.reserve(scene.triangles.size());
-    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-        const Corners corners = scene.corners(i);
-        if (has_zero_area(corners)) {
-            ++scene.degenerate;
-            continue;
-        }
-        scene.prepared[i] = prepare(corners);
-        boxes.push_back(box_of(corners));
-        numbers.push_back(i);
-    }
-    const std::size_t most = options.max_grid_bytes != 0
-                                 ? options.max_grid_bytes
-                                 : std::max<std::size_t>(192 * boxes.size(), std::size_t{1} << 16);
-    scene.grid = Grid(boxes, numbers, {options.grid_cells, most});
+    const std::vector<PlainBox<Scalar>> boxes = make_boxes(mesh, options.executor);
+    const std::size_t most = options.max_grid_bytes != 0 ? options.max_grid_bytes
+                                                         : std::max<std::size_t>(96 * boxes.size(), std::size_t{1} << 16);
+    scene.grid = Grid(std::span(boxes), {options.cell_size, most}, options.executor);
+    scene.triangle_numbers = scene.grid.take_order();
+    const std::size_t listed = scene.triangle_numbers.size();
+    scene.triangle_numbers.reserve(boxes.size());
+    for (std::uint32_t i = 0; i < boxes.size(); ++i)
+        if (!boxes[i].listed()) scene.triangle_numbers.push_back(i);
+    scene.degenerate = scene.triangle_numbers.size() - listed;
+    copy_in_order(mesh, scene, options.executor);
+    scene.scale = scale_for(scene.grid);
     scene.face_count = count_faces(scene);
     return scene;
 }
 
-template Scene make_scene(const MeshView<float>&, const BuildOptions&);
-template Scene make_scene(const MeshView<double>&, const BuildOptions&);
+template struct Scene<float>;
+template struct Scene<double>;
+template Scene<float> make_scene(const MeshView<float>&, const BuildOptions&);
+template Scene<double> make_scene(const MeshView<double>&, const BuildOptions&);
 
 }  // namespace pierce::detail

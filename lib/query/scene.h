@@ -5,27 +5,37 @@
 #include <vector>
 
 #include <grid/grid.h>
-#include <mesh/prepared_triangle.h>
+#include <kernel/backends.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
 
 namespace pierce::detail {
 
+template <class Scalar>
 struct Scene {
-    std::vector<Point> positions;
-    std::vector<IndexTriple> triangles;
-    std::vector<std::uint32_t> faces;          ///< as in MeshView; empty when the numbers are the triangles' own
-    std::vector<PreparedTriangle> prepared;    ///< by triangle; unset where the area is zero
-    Grid grid;                                 ///< lists the triangles that can be hit: all but those of area zero
+    // Triangles in an order of the library's own, in which what is near in space is near in memory, those of area zero last. `triangle`
+    // means a place in it.
+    std::vector<Scalar> coordinates;         ///< of the corners: nine a triangle, and one more that kernels may read
+    std::vector<IndexTriple> triangles;      ///< the caller's vertices
+    std::vector<std::uint32_t> triangle_numbers;  ///< the caller's, by triangle
+    std::vector<std::uint32_t> faces;        ///< as in MeshView, by the caller's number; empty when that is the face as well
+    std::size_t degenerate = 0;              ///< triangles of area zero
+    Grid grid;                               ///< lists all the others
+    const Backend* backend = nullptr;
+    float scale = 1;                         ///< the power of two that makes a cell of the finest level about 1 wide
     std::size_t face_count = 0;
-    std::size_t degenerate = 0;
+    std::size_t vertex_count = 0;
 
     [[nodiscard]] Corners corners(std::uint32_t triangle) const {
-        const IndexTriple& t = triangles[triangle];
-        return {positions[t[0]], positions[t[1]], positions[t[2]]};
+        const Scalar* x = &coordinates[9 * std::size_t{triangle}];
+        const auto corner = [&](std::size_t k) {
+            return Point{static_cast<double>(x[3 * k]), static_cast<double>(x[3 * k + 1]), static_cast<double>(x[3 * k + 2])};
+        };
+        return {corner(0), corner(1), corner(2)};
     }
     [[nodiscard]] std::uint32_t face_of(std::uint32_t triangle) const {
-        return faces.empty() ? triangle : faces[triangle];
+        const std::uint32_t number = triangle_numbers[triangle];
+        return faces.empty() ? number : faces[number];
     }
     [[nodiscard]] std::size_t bytes() const;
 };
@@ -48,8 +58,8 @@ struct Scene {
     return box;
 }
 
-/// Checks the mesh (throws `MeshError`), copies it, and prepares triangles and grid. Not inlined: see engine.h.
+/// Checks the mesh (throws `MeshError`), copies it, and makes the grid. Not inlined: see engine.h.
 template <class Scalar>
-[[nodiscard]] [[gnu::noinline]] Scene make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options);
+[[nodiscard]] [[gnu::noinline]] Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options);
 
 }  // namespace pierce::detail

@@ -1,0 +1,22 @@
+// From coordinates to cells.
+#include <grid/raster.h>
+
+#include <cmath>
+
+namespace pierce::detail {
+
+Raster::Raster(const Box& box, double size) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        half_low_[k] = 0.5 * box.low[k];
+        const double half_extent = 0.5 * box.high[k] - half_low_[k];
+        // Finite and normal, whatever the box: the least cell is 2^-1000, the largest holds everything.
+        double half_cell = std::clamp(0.5 * size, half_extent / k_most_cells, 0x1p1022);
+        half_cell = std::max({half_cell, half_extent / (k_most_cells - 1), 0x1p-1000});
+        cells_[k] = std::min(static_cast<int>(half_extent / half_cell) + 1, k_most_cells);
+        scale_[k] = k_steps / half_cell;
+        // The upper end of the box must lie within the last cell as step() computes it.
+        while ((0.5 * box.high[k] - half_low_[k]) * scale_[k] >= cells_[k] * k_steps) ++cells_[k];
+    }
+}
+
+}  // namespace pierce::detail

@@ -1,0 +1,73 @@
+// From coordinates to cells: one monotone function, the same for triangles and for queries.
+//
+// Whatever the rounding does to it, a function that never decreases maps a point that lies in two boxes into both of their images: so
+// boxes that touch share a step, with no margin, at any distance from the origin and for any size.
+#pragma once
+
+#include <packed_box.h>
+#include <point.h>
+
+namespace pierce::detail {
+
+/// A closed box; `low <= high` on every axis.
+struct Box {
+    Point low;
+    Point high;
+};
+
+[[nodiscard]] inline bool overlap(const Box& x, const Box& y) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (x.low[k] > y.high[k] || x.high[k] < y.low[k]) return false;
+    return true;
+}
+
+class Raster {
+  public:
+    Raster() = default;
+    /// The cells that cover `box`, cubes of the given size, at most `k_most_cells` along an axis. A size of 0 or infinity, or one that
+    /// would need more: larger cells, not cubes if need be.
+    Raster(const Box& box, double size);
+
+    static constexpr int k_most_cells = 1 << 20;
+
+    [[nodiscard]] const std::array<int, 3>& cells() const { return cells_; }
+    /// The edge of a cell along an axis; infinite for cells beyond the range of a double.
+    [[nodiscard]] double size(std::size_t axis) const { return 2 * k_steps / scale_[axis]; }
+
+    [[nodiscard]] double least_size() const { return std::min({size(0), size(1), size(2)}); }
+
+    /// Where a coordinate is, in cells, and not rounded to whole ones: may be far outside of the cells, or infinite.
+    [[nodiscard]] double place(std::size_t axis, double x) const {
+        // Halves, so that the difference of two huge numbers does not overflow.
+        return (0.5 * x - half_low_[axis]) * (scale_[axis] * (1.0 / k_steps));
+    }
+
+    /// The step that a coordinate is in; -1 below all cells, the number of steps above them.
+    [[nodiscard]] int step(std::size_t axis, double x) const {
+        const double g = (0.5 * x - half_low_[axis]) * scale_[axis];
+        if (!(g >= 0)) return -1;
+        const int most = cells_[axis] * k_steps;
+        return g >= most ? most : static_cast<int>(g);
+    }
+    [[nodiscard]] Steps steps(const Point& low, const Point& high) const {
+        return {{step(0, low[0]), step(1, low[1]), step(2, low[2])}, {step(0, high[0]), step(1, high[1]), step(2, high[2])}};
+    }
+    [[nodiscard]] bool outside(const Steps& box) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (box.high[k] < 0 || box.low[k] >= cells_[k] * k_steps) return true;
+        return false;
+    }
+    /// The cell of a place in steps; the outermost one for a place outside.
+    [[nodiscard]] std::array<int, 3> cell_of(const std::array<int, 3>& step) const {
+        std::array<int, 3> cell{};
+        for (std::size_t k = 0; k < 3; ++k) cell[k] = std::min(std::max(step[k], 0) / k_steps, cells_[k] - 1);
+        return cell;
+    }
+
+  private:
+    Point half_low_ = {0, 0, 0};
+    Point scale_ = {0, 0, 0};  ///< steps for each half unit
+    std::array<int, 3> cells_ = {1, 1, 1};
+};
+
+}  // namespace pierce::detail

@@ -1,0 +1,48 @@
+// The wide kernels, one set for each instruction set: cull boxes, then refuse the triangles that a segment certainly misses.
+//
+// What is refused depends on the instruction set in the last bits of the bounds; what is hit does not: all that is left goes to
+// the filter (filter.h) and where that is in doubt to exact arithmetic.
+#pragma once
+
+#include <cstdint>
+
+namespace pierce::detail {
+
+/// A segment as the wide kernels read it, in units of about a cell, so that single precision neither overflows nor underflows.
+template <class Scalar>
+struct Probe {
+    Scalar origin[4];       ///< a point that the line passes within `noise`; the segment's start where noise is 0. The fourth is 0
+    float direction[4];     ///< to - from, times `scale`, each component rounded once
+    float scale;            ///< a power of two
+    float reach;            ///< the largest |direction|
+    float noise;            ///< times `scale`; 0 where the origin is the segment's start
+    float ends;             ///< 1: ask also on which side of the plane the ends are, which needs noise 0; 0: do not
+    float unit;             ///< the rounding unit that the bounds are in: 2^-24 (a benchmark sets it to 0)
+    std::uint32_t front;    ///< all bits set: hits from the front count
+    std::uint32_t back;
+};
+
+struct Backend {
+    const char* name;
+    /// The ids of the boxes that `above` and `seen` leave (packed_box.h), in order; returns how many. Reads up to 7 boxes beyond
+    /// the last. `out` has room for `count` and 8 more.
+    unsigned (*cull)(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
+                     std::uint32_t* out);
+    /// The ids of the triangles that the segment may hit, in order; returns how many. `corners` has nine scalars a triangle, and one
+    /// more at the end. `out` has room for `count`.
+    unsigned (*refine_float)(const Probe<float>& probe, const float* corners, const std::uint32_t* ids, unsigned count,
+                             std::uint32_t* out);
+    unsigned (*refine_double)(const Probe<double>& probe, const double* corners, const std::uint32_t* ids, unsigned count,
+                              std::uint32_t* out);
+
+    [[nodiscard]] unsigned refine(const Probe<float>& probe, const float* corners, const std::uint32_t* ids, unsigned count,
+                                  std::uint32_t* out) const {
+        return refine_float(probe, corners, ids, count, out);
+    }
+    [[nodiscard]] unsigned refine(const Probe<double>& probe, const double* corners, const std::uint32_t* ids, unsigned count,
+                                  std::uint32_t* out) const {
+        return refine_double(probe, corners, ids, count, out);
+    }
+};
+
+}  // namespace pierce::detail

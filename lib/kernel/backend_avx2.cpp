@@ -1,0 +1,104 @@
+// Eight triangles at once on AVX2 and FMA; compiled with flags of its own (lib/CMakeLists.txt), see wide.h.
+#include <immintrin.h>
+
+#include <kernel/backends.h>
+#include <kernel/wide.h>
+
+namespace pierce::detail {
+
+namespace {
+
+struct Avx2 {
+    static constexpr unsigned width = 8;
+    static constexpr unsigned boxes = 4;
+    using Float = __m256;
+
+    static Float all(float x) { return _mm256_set1_ps(x); }
+    static Float abs(Float x) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), x); }
+    static Float max(Float x, Float y) { return _mm256_max_ps(x, y); }
+    static Float min(Float x, Float y) { return _mm256_min_ps(x, y); }
+    static unsigned less(Float x, Float y) {
+        return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(x, y, _CMP_LT_OQ)));
+    }
+
+    // Transposes x y z _ in eight lanes of the rows i and i + 4.
+    static Lanes<Avx2> columns(Float r0, Float r1, Float r2, Float r3) {
+        const Float xy01 = _mm256_unpacklo_ps(r0, r1);
+        const Float xy23 = _mm256_unpacklo_ps(r2, r3);
+        const Float z01 = _mm256_unpackhi_ps(r0, r1);
+        const Float z23 = _mm256_unpackhi_ps(r2, r3);
+        return {_mm256_shuffle_ps(xy01, xy23, 0x44), _mm256_shuffle_ps(xy01, xy23, 0xee), _mm256_shuffle_ps(z01, z23, 0x44)};
+    }
+    static Lanes<Avx2> relative(const float* const* at, const float* origin, float scale) {
+        const Float o = _mm256_broadcast_ps(reinterpret_cast<const __m128*>(origin));
+        const Float s = _mm256_set1_ps(scale);
+        const auto row = [&](unsigned i) {
+            return (_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at[i])), _mm_loadu_ps(at[i + 4]), 1) - o) * s;
+        };
+        return columns(row(0), row(1), row(2), row(3));
+    }
+    static Lanes<Avx2> relative(const double* const* at, const double* origin, float scale) {
+        const __m256d o = _mm256_loadu_pd(origin);
+        const __m256d s = _mm256_set1_pd(double{scale});
+        const auto half = [&](unsigned i) { return _mm256_cvtpd_ps((_mm256_loadu_pd(at[i]) - o) * s); };
+        const auto row = [&](unsigned i) { return _mm256_insertf128_ps(_mm256_castps128_ps256(half(i)), half(i + 4), 1); };
+        return columns(row(0), row(1), row(2), row(3));
+    }
+
+    using Bytes = __m256i;
+    static Bytes bytes(std::uint64_t x) { return _mm256_set1_epi64x(static_cast<long long>(x)); }
+    static unsigned left(const std::uint64_t* box, Bytes above, Bytes seen) {
+        const __m256i v = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(box));
+        const __m256i refused = _mm256_or_si256(_mm256_cmpgt_epi8(v, above), _mm256_and_si256(v, seen));
+        const __m256i free = _mm256_cmpeq_epi64(refused, _mm256_setzero_si256());
+        return static_cast<unsigned>(_mm256_movemask_pd(_mm256_castsi256_pd(free)));
+    }
+};
+
+/// For the usual few: half of the loads.
+struct Four {
+    static constexpr unsigned width = 4;
+    using Float = __m128;
+
+    static Float all(float x) { return _mm_set1_ps(x); }
+    static Float abs(Float x) { return _mm_andnot_ps(_mm_set1_ps(-0.0F), x); }
+    static Float max(Float x, Float y) { return _mm_max_ps(x, y); }
+    static Float min(Float x, Float y) { return _mm_min_ps(x, y); }
+    static unsigned less(Float x, Float y) { return static_cast<unsigned>(_mm_movemask_ps(_mm_cmplt_ps(x, y))); }
+
+    static Lanes<Four> columns(Float r0, Float r1, Float r2, Float r3) {
+        const Float xy01 = _mm_unpacklo_ps(r0, r1);
+        const Float xy23 = _mm_unpacklo_ps(r2, r3);
+        const Float z01 = _mm_unpackhi_ps(r0, r1);
+        const Float z23 = _mm_unpackhi_ps(r2, r3);
+        return {_mm_movelh_ps(xy01, xy23), _mm_movehl_ps(xy23, xy01), _mm_movelh_ps(z01, z23)};
+    }
+    static Lanes<Four> relative(const float* const* at, const float* origin, float scale) {
+        const Float o = _mm_loadu_ps(origin);
+        const Float s = _mm_set1_ps(scale);
+        const auto row = [&](unsigned i) { return (_mm_loadu_ps(at[i]) - o) * s; };
+        return columns(row(0), row(1), row(2), row(3));
+    }
+    static Lanes<Four> relative(const double* const* at, const double* origin, float scale) {
+        const __m256d o = _mm256_loadu_pd(origin);
+        const __m256d s = _mm256_set1_pd(double{scale});
+        const auto row = [&](unsigned i) { return _mm256_cvtpd_ps((_mm256_loadu_pd(at[i]) - o) * s); };
+        return columns(row(0), row(1), row(2), row(3));
+    }
+};
+
+unsigned cull_avx2(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
+                   std::uint32_t* out) {
+    return cull<Avx2>(boxes, ids, count, above, seen, out);
+}
+
+template <class Scalar>
+unsigned refine_avx2(const Probe<Scalar>& probe, const Scalar* corners, const std::uint32_t* ids, unsigned count, std::uint32_t* out) {
+    return count <= 4 ? refine<Four>(probe, corners, ids, count, out) : refine<Avx2>(probe, corners, ids, count, out);
+}
+
+}  // namespace
+
+const Backend k_avx2 = {"avx2", cull_avx2, refine_avx2<float>, refine_avx2<double>};
+
+}  // namespace pierce::detail

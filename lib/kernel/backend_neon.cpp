@@ -1,0 +1,73 @@
+// Four triangles at once on 64-bit Arm; see wide.h.
+#include <arm_neon.h>
+
+#include <kernel/backends.h>
+#include <kernel/wide.h>
+
+namespace pierce::detail {
+
+namespace {
+
+struct Neon {
+    static constexpr unsigned width = 4;
+    static constexpr unsigned boxes = 2;
+    using Float = float32x4_t;
+
+    static Float all(float x) { return vdupq_n_f32(x); }
+    static Float abs(Float x) { return vabsq_f32(x); }
+    static Float max(Float x, Float y) { return vmaxq_f32(x, y); }
+    static Float min(Float x, Float y) { return vminq_f32(x, y); }
+    static unsigned less(Float x, Float y) {
+        const uint32x4_t bit = {1, 2, 4, 8};
+        return vaddvq_u32(vandq_u32(vcltq_f32(x, y), bit));
+    }
+
+    static Lanes<Neon> columns(Float r0, Float r1, Float r2, Float r3) {
+        const Float xz01 = vtrn1q_f32(r0, r1);
+        const Float xz23 = vtrn1q_f32(r2, r3);
+        const Float y01 = vtrn2q_f32(r0, r1);
+        const Float y23 = vtrn2q_f32(r2, r3);
+        return {vcombine_f32(vget_low_f32(xz01), vget_low_f32(xz23)), vcombine_f32(vget_low_f32(y01), vget_low_f32(y23)),
+                vcombine_f32(vget_high_f32(xz01), vget_high_f32(xz23))};
+    }
+    static Lanes<Neon> relative(const float* const* at, const float* origin, float scale) {
+        const Float o = vld1q_f32(origin);
+        const auto row = [&](unsigned i) { return vmulq_n_f32(vsubq_f32(vld1q_f32(at[i]), o), scale); };
+        return columns(row(0), row(1), row(2), row(3));
+    }
+    static Lanes<Neon> relative(const double* const* at, const double* origin, float scale) {
+        const float64x2_t xy = vld1q_f64(origin);
+        const float64x2_t z = vld1q_f64(origin + 2);
+        const auto row = [&](unsigned i) {
+            const float64x2_t low = vmulq_n_f64(vsubq_f64(vld1q_f64(at[i]), xy), scale);
+            const float64x2_t high = vmulq_n_f64(vsubq_f64(vdupq_n_f64(at[i][2]), z), scale);
+            return vcombine_f32(vcvt_f32_f64(low), vcvt_f32_f64(high));
+        };
+        return columns(row(0), row(1), row(2), row(3));
+    }
+
+    using Bytes = int8x16_t;
+    static Bytes bytes(std::uint64_t x) { return vreinterpretq_s8_u64(vdupq_n_u64(x)); }
+    static unsigned left(const std::uint64_t* box, Bytes above, Bytes seen) {
+        const int8x16_t v = vreinterpretq_s8_u64(vld1q_u64(box));
+        const uint8x16_t refused = vorrq_u8(vcgtq_s8(v, above), vreinterpretq_u8_s8(vandq_s8(v, seen)));
+        const uint64x2_t free = vceqzq_u64(vreinterpretq_u64_u8(refused));
+        return static_cast<unsigned>((vgetq_lane_u64(free, 0) & 1) | (vgetq_lane_u64(free, 1) & 2));
+    }
+};
+
+unsigned cull_neon(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
+                   std::uint32_t* out) {
+    return cull<Neon>(boxes, ids, count, above, seen, out);
+}
+
+template <class Scalar>
+unsigned refine_neon(const Probe<Scalar>& probe, const Scalar* corners, const std::uint32_t* ids, unsigned count, std::uint32_t* out) {
+    return refine<Neon>(probe, corners, ids, count, out);
+}
+
+}  // namespace
+
+const Backend k_neon = {"neon", cull_neon, refine_neon<float>, refine_neon<double>};
+
+}  // namespace pierce::detail
