@@ -20,7 +20,8 @@ class CgalTree {
   public:
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     using Triangles = std::vector<Kernel::Triangle_3>;
-    using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
+    using Tree =
+        CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
 
     struct Nearest {
         Kernel::Point_3 point;

@@ -57,7 +57,8 @@ class EmbreeScene {
         rtcCommitGeometry(geometry_);
         rtcAttachGeometry(scene_, geometry_);
         rtcCommitScene(scene_);
-        if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE) throw std::runtime_error("Embree does not take the mesh");
+        if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE)
+            throw std::runtime_error("Embree does not take the mesh");
     }
     ~EmbreeScene() {
         rtcReleaseGeometry(geometry_);

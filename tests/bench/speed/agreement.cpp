@@ -23,7 +23,8 @@ Column* find(const Columns& columns, std::string_view name) {
 
 }  // namespace
 
-void Agreement::compare(std::string_view mesh, std::string_view set, const Columns& columns, std::size_t count, double seconds) {
+void Agreement::compare(std::string_view mesh, std::string_view set, const Columns& columns, std::size_t count,
+                        double seconds) {
     Column& pierce = *find(columns, column::pierce_both);
     Column& embree = *find(columns, column::embree);
     Column* cgal = find(columns, column::cgal_any);
@@ -43,23 +44,28 @@ void Agreement::compare(std::string_view mesh, std::string_view set, const Colum
 }
 
 bool Agreement::report() const {
+    if (rows_.empty()) return true;
     Share embree;
     Share cgal;
     Table table({"mesh/set", "compared", "hits", "Embree differs", "at an end", "CGAL differs"});
     for (const Row& row : rows_) {
         embree.add(row.embree);
         cgal.add(row.cgal);
-        table.add({row.place, std::to_string(row.hits.whole), row.hits.percent(), row.embree.percent(), row.at_ends.percent(),
-                   row.cgal.whole == 0 ? "-" : std::to_string(row.cgal.part)});
+        table.add({row.place, std::to_string(row.hits.whole), row.hits.percent(), row.embree.percent(),
+                   row.at_ends.percent(), row.cgal.whole == 0 ? "-" : std::to_string(row.cgal.part)});
     }
     const double rate = embree.whole == 0 ? 0 : static_cast<double>(embree.part) / static_cast<double>(embree.whole);
     const bool fine = rate <= k_tolerated && cgal.part == 0;
-    std::cout << "### Answers\n\nThe first hit for both sides, before time was taken. Embree differs: hit or not, or a fraction by more "
-                 "than 0.001; hits that either sees within 0.001 of an end are set aside, as rules and rounding decide there (at an end). CGAL "
-                 "differs: do_intersect, without triangles whose plane the segment ends on, which is pierce's rule.\n\n";
+    std::cout
+        << "### Answers\n\nThe first hit for both sides, before time was taken. Embree differs: hit or not, or a "
+           "fraction by more "
+           "than 0.001; hits that either sees within 0.001 of an end are set aside, as rules and rounding decide there "
+           "(at an end). CGAL "
+           "differs: do_intersect, without triangles whose plane the segment ends on, which is pierce's rule.\n\n";
     table.print(std::cout);
-    std::cout << "Embree differs in " << embree.part << " of " << embree.whole << " answers; tolerated: 1 of 1000. CGAL differs in "
-              << cgal.part << " of " << cgal.whole << "; tolerated: none. " << (fine ? "Fine." : "FAILED.") << "\n\n";
+    std::cout << "Embree differs in " << embree.part << " of " << embree.whole
+              << " answers; tolerated: 1 of 1000. CGAL differs in " << cgal.part << " of " << cgal.whole
+              << "; tolerated: none. " << (fine ? "Fine." : "FAILED.") << "\n\n";
     return fine;
 }
 

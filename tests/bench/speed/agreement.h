@@ -3,8 +3,8 @@
 
 #include <string_view>
 
-#include "column.h"
 #include "../table.h"
+#include "column.h"
 
 namespace pierce::bench {
 
@@ -16,7 +16,8 @@ class Agreement {
 
     /// Compares `count` answers of pierce for both sides with those of Embree and, if they are among the columns, of CGAL,
     /// and stops after `seconds`.
-    void compare(std::string_view mesh, std::string_view set, const Columns& columns, std::size_t count, double seconds);
+    void compare(std::string_view mesh, std::string_view set, const Columns& columns, std::size_t count,
+                 double seconds);
 
     /// Prints a table; whether all is well.
     [[nodiscard]] bool report() const;

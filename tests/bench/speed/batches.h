@@ -33,7 +33,8 @@ std::size_t first_hits(const CollisionMesh<Scalar>& mesh, std::span<const Segmen
 
 /// out[i] = any_hit(segments[i]); returns the number of hits.
 template <class Scalar>
-std::size_t any_hits(const CollisionMesh<Scalar>& mesh, std::span<const Segment<Scalar>> segments, std::span<std::uint8_t> out) {
+std::size_t any_hits(const CollisionMesh<Scalar>& mesh, std::span<const Segment<Scalar>> segments,
+                     std::span<std::uint8_t> out) {
     std::size_t hits = 0;
     for (std::size_t i = 0; i < segments.size(); ++i) {
         out[i] = mesh.any_hit(segments[i]) ? 1U : 0U;

@@ -17,8 +17,8 @@ enum class MeshKind {
 struct BenchMesh {
     std::string name;
     MeshKind kind;
-    std::string path;  ///< of a file, or empty
-    int divisions = 0; ///< of a sphere, of 8 * divisions^2 faces
+    std::string path;   ///< of a file, or empty
+    int divisions = 0;  ///< of a sphere, of 8 * divisions^2 faces
 
     [[nodiscard]] TriangleSoup<float> load() const;
 };

@@ -8,9 +8,10 @@
 namespace pierce::bench {
 
 namespace set_name {
-inline constexpr std::string_view build = "build";      ///< milliseconds from positions and indices to the first answer
-inline constexpr std::string_view memory = "memory";    ///< bytes a face
-inline constexpr std::string_view threads = "threads";  ///< ns a query, on the wall
+inline constexpr std::string_view build = "build";                 ///< milliseconds of one thread, to the first answer
+inline constexpr std::string_view memory = "memory";               ///< bytes a face
+inline constexpr std::string_view threads = "threads.batch";       ///< ns a query, on the wall
+inline constexpr std::string_view thread_build = "threads.build";  ///< milliseconds, on the wall, to the first answer
 }  // namespace set_name
 
 void measure_builds(const std::string& mesh, const MeshView<float>& view, int repetitions, Results& results);

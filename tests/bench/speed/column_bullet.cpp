@@ -1,5 +1,5 @@
-#include "column.h"
 #include "../bullet_shape.h"
+#include "column.h"
 
 namespace pierce::bench {
 namespace {
@@ -38,6 +38,8 @@ class BulletColumn : public Column {
 
 }  // namespace
 
-void add_bullet_column(Columns& columns, const MeshView<float>& mesh) { columns.push_back(std::make_unique<BulletColumn>(mesh)); }
+void add_bullet_column(Columns& columns, const MeshView<float>& mesh) {
+    columns.push_back(std::make_unique<BulletColumn>(mesh));
+}
 
 }  // namespace pierce::bench

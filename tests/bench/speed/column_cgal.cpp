@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "column.h"
 #include "../cgal_tree.h"
+#include "column.h"
 
 namespace pierce::bench {
 namespace {
@@ -49,7 +49,9 @@ class First : public CgalColumn {
     std::size_t ask(std::size_t begin, std::size_t end) override {
         std::size_t hits = 0;
         for (std::size_t i = begin; i < end; ++i)
-            hits += tree().nearest(segment(i), [](const CgalTree::Kernel::Triangle_3&) { return true; }).has_value() ? 1U : 0U;
+            hits += tree().nearest(segment(i), [](const CgalTree::Kernel::Triangle_3&) { return true; }).has_value()
+                        ? 1U
+                        : 0U;
         return hits;
     }
 };

@@ -1,7 +1,7 @@
 #include <immintrin.h>
 
-#include "column.h"
 #include "../embree_scene.h"
+#include "column.h"
 
 namespace pierce::bench {
 namespace {
@@ -132,7 +132,8 @@ void add_embree_columns(Columns& columns, const MeshView<float>& mesh, bool all)
     if (!all) return;
     columns.push_back(std::make_unique<First>(column::embree_robust,
                                               make_scene(mesh, RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH)));
-    columns.push_back(std::make_unique<First>(column::embree_low, make_scene(mesh, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_LOW)));
+    columns.push_back(
+        std::make_unique<First>(column::embree_low, make_scene(mesh, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_LOW)));
 }
 
 }  // namespace pierce::bench

@@ -70,8 +70,8 @@ class FirstBatch : public PierceColumn<Scalar> {
     }
     std::size_t ask(std::size_t begin, std::size_t end) override {
         const std::size_t count = end - begin;
-        return first_hits<Scalar>(this->mesh(), this->segments().subspan(begin, count), std::span(out_).subspan(begin, count),
-                                  threads_);
+        return first_hits<Scalar>(this->mesh(), this->segments().subspan(begin, count),
+                                  std::span(out_).subspan(begin, count), threads_);
     }
 
   private:
@@ -89,7 +89,8 @@ class AnyBatch : public PierceColumn<Scalar> {
     }
     std::size_t ask(std::size_t begin, std::size_t end) override {
         const std::size_t count = end - begin;
-        return any_hits<Scalar>(this->mesh(), this->segments().subspan(begin, count), std::span(out_).subspan(begin, count));
+        return any_hits<Scalar>(this->mesh(), this->segments().subspan(begin, count),
+                                std::span(out_).subspan(begin, count));
     }
 
   private:

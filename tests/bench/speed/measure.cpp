@@ -18,7 +18,8 @@ class Stopwatch {
     double repeat() {
         if (next_ + count_ > segments_) next_ = 0;
         const std::size_t warm = std::max<std::size_t>(1, count_ / 8);
-        const std::size_t other = (next_ + count_ + warm <= segments_) ? next_ + count_ : (next_ >= warm ? next_ - warm : 0);
+        const std::size_t other =
+            (next_ + count_ + warm <= segments_) ? next_ + count_ : (next_ >= warm ? next_ - warm : 0);
         g_hits += column_.ask(other, other + warm);
         const double ns = 1e9 * time(next_, next_ + count_) / static_cast<double>(count_);
         next_ += count_;
@@ -41,7 +42,8 @@ class Stopwatch {
             const double taken = time(0, tried);
             if (taken < share / 8 && tried < segments_) continue;
             const double fits = static_cast<double>(tried) * share / std::max(taken, 1e-9);
-            return fits >= static_cast<double>(segments_) ? segments_ : std::max<std::size_t>(32, static_cast<std::size_t>(fits));
+            return fits >= static_cast<double>(segments_) ? segments_
+                                                          : std::max<std::size_t>(32, static_cast<std::size_t>(fits));
         }
     }
 
@@ -58,7 +60,7 @@ double seconds_now(Clock clock) {
     if (clock == Clock::wall)
         return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    clock_gettime(clock == Clock::thread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 

@@ -11,12 +11,13 @@ namespace pierce::bench {
 
 struct Effort {
     std::size_t segments;  ///< in each repetition, at most
-    double seconds;        ///< for all repetitions of one figure together, at most: slow columns get through fewer segments
+    double seconds;  ///< for all repetitions of one figure together, at most: slow columns get through fewer segments
     int repetitions;
 };
 
-/// Of this thread's own time, which other programs don't count in; or of the time on the wall, where threads are counted.
-enum class Clock { thread, wall };
+/// Of this thread's own time, or this process's, which other programs don't count in; or of the time on the wall, where
+/// several threads are to be worth something.
+enum class Clock { thread, process, wall };
 
 double seconds_now(Clock clock);
 

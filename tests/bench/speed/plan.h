@@ -27,7 +27,9 @@ struct Plan {
         const bool is_short = set == SegmentSet::short_02 || set == SegmentSet::short_1;
         constexpr std::array everywhere = {column::pierce, column::pierce_batch, column::embree};
         constexpr std::array slow = {column::bullet, column::cgal_any, column::cgal_first};
-        const auto among = [&](const auto& names) { return std::find(names.begin(), names.end(), name) != names.end(); };
+        const auto among = [&](const auto& names) {
+            return std::find(names.begin(), names.end(), name) != names.end();
+        };
         if (among(everywhere)) return true;
         if (among(slow)) return is_short || (!quick && set != SegmentSet::random);
         return !quick || is_short || set == SegmentSet::aimed;

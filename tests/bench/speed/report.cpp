@@ -23,14 +23,15 @@ std::string number(double value) {
 
 std::string cell(const std::optional<double>& value) { return value ? number(*value) : "-"; }
 
-constexpr std::array k_columns = {column::pierce,          column::pierce_two_threads, column::pierce_batch,
-                                  column::pierce_both,     column::pierce_any,         column::pierce_any_batch,
-                                  column::pierce_double,   column::pierce_double_batch, column::embree,
-                                  column::embree_any,      column::embree_stream,      column::embree_robust,
-                                  column::embree_low,      column::embree_low_again,   column::bullet,
-                                  column::cgal_any,        column::cgal_first};
+constexpr std::array k_columns = {column::pierce,        column::pierce_two_threads,  column::pierce_batch,
+                                  column::pierce_both,   column::pierce_any,          column::pierce_any_batch,
+                                  column::pierce_double, column::pierce_double_batch, column::embree,
+                                  column::embree_any,    column::embree_stream,       column::embree_robust,
+                                  column::embree_low,    column::embree_low_again,    column::bullet,
+                                  column::cgal_any,      column::cgal_first};
 
-void print_set(const Results& results, const std::vector<Measured>& meshes, std::string_view set, std::string_view title) {
+void print_set(const Results& results, const std::vector<Measured>& meshes, std::string_view set,
+               std::string_view title) {
     const auto measured = [&](std::string_view column) {
         return std::any_of(meshes.begin(), meshes.end(),
                            [&](const Measured& m) { return results.value(m.mesh.name, set, column).has_value(); });
@@ -44,7 +45,8 @@ void print_set(const Results& results, const std::vector<Measured>& meshes, std:
     for (const Measured& m : meshes) {
         std::vector<std::string> row = {m.mesh.name, std::to_string(m.faces)};
         for (const std::string_view column : columns) row.push_back(cell(results.value(m.mesh.name, set, column)));
-        if (std::any_of(row.begin() + 2, row.end(), [](const std::string& text) { return text != "-"; })) table.add(row);
+        if (std::any_of(row.begin() + 2, row.end(), [](const std::string& text) { return text != "-"; }))
+            table.add(row);
     }
     std::cout << "### " << title << "\n\n";
     table.print(std::cout);
@@ -80,7 +82,7 @@ std::vector<RatioLine> ratio_lines() {
             {"embree.build", {set_name::build}, embree_low, pierce},
             {"embree.memory", {set_name::memory}, embree, pierce},
             {"threads.batch", {set_name::threads}, pierce_batch, pierce_two_threads},
-            {"threads.build", {set_name::build}, pierce, pierce_two_threads}};
+            {"threads.build", {set_name::thread_build}, pierce, pierce_two_threads}};
 }
 
 /// embree.short.single -> stadium.short.single, bullet.short.single -> stadium.bullet.short.single
@@ -94,9 +96,12 @@ std::string stadium_name(const std::string& name) {
 void print_figures(const Results& results, const std::vector<Measured>& meshes) {
     for (const SegmentSet set : k_segment_sets)
         print_set(results, meshes, name_of(set), "ns a query; " + std::string(description_of(set)));
-    print_set(results, meshes, set_name::build, "Build: milliseconds from positions and indices to the first answer");
-    print_set(results, meshes, set_name::memory, "Memory after the build: bytes a face, buffers of vertices and indices included");
-    print_set(results, meshes, set_name::threads, "Threads: ns a query in batches of short1");
+    print_set(results, meshes, set_name::build,
+              "Build: milliseconds of one thread, from positions and indices to the first answer");
+    print_set(results, meshes, set_name::memory,
+              "Memory after the build: bytes a face, buffers of vertices and indices included");
+    print_set(results, meshes, set_name::threads, "Threads: ns a query in batches of short1, on the wall");
+    print_set(results, meshes, set_name::thread_build, "Threads: milliseconds for a build, on the wall");
 }
 
 void print_ratios(const Results& results, const std::vector<Measured>& meshes) {
@@ -119,9 +124,11 @@ void print_ratios(const Results& results, const std::vector<Measured>& meshes) {
         row.push_back(real.empty() ? "-" : number(median(real)));
         if (!real.empty()) lines += "ratio " + line.name + ' ' + number(median(real)) + '\n';
         lines += stadium;
-        if (std::any_of(row.begin() + 1, row.end(), [](const std::string& text) { return text != "-"; })) table.add(row);
+        if (std::any_of(row.begin() + 1, row.end(), [](const std::string& text) { return text != "-"; }))
+            table.add(row);
     }
-    std::cout << "### Ratios\n\nThe peer's time (or bytes) over ours, the median of the repetitions' ratios: more is better. The sets of "
+    std::cout << "### Ratios\n\nThe peer's time (or bytes) over ours, the median of the repetitions' ratios: more is "
+                 "better. The sets of "
                  "short and of long segments count half each, in time.\n\n";
     table.print(std::cout);
     std::cout << lines << std::flush;

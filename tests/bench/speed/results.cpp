@@ -37,8 +37,8 @@ std::optional<double> Results::value(std::string_view mesh, std::string_view set
     return median(*values);
 }
 
-std::optional<double> Results::ratio(std::string_view mesh, const std::vector<std::string_view>& sets, std::string_view peer,
-                                     std::string_view ours) const {
+std::optional<double> Results::ratio(std::string_view mesh, const std::vector<std::string_view>& sets,
+                                     std::string_view peer, std::string_view ours) const {
     std::vector<double> peer_sums;
     std::vector<double> our_sums;
     for (const std::string_view set : sets) {
@@ -58,13 +58,15 @@ std::optional<double> Results::ratio(std::string_view mesh, const std::vector<st
     return median(ratios);
 }
 
-void Results::write(const std::filesystem::path& path, const std::map<std::string, std::size_t, std::less<>>& faces) const {
+void Results::write(const std::filesystem::path& path,
+                    const std::map<std::string, std::size_t, std::less<>>& faces) const {
     std::ofstream out(path);
     out << "mesh\tfaces\tset\tcolumn\tmedian\trepetitions\n";
     for (const auto& [key, values] : values_) {
         const std::size_t tab = key.find('\t');
         const auto count = faces.find(key.substr(0, tab));
-        out << key.substr(0, tab + 1) << (count == faces.end() ? 0 : count->second) << key.substr(tab) << median(values) << '\t';
+        out << key.substr(0, tab + 1) << (count == faces.end() ? 0 : count->second) << key.substr(tab) << median(values)
+            << '\t';
         for (const double v : values) out << v << ' ';
         out << '\n';
     }

@@ -22,14 +22,22 @@ class Maker {
 
     Segment<float> make(SegmentSet set) {
         switch (set) {
-            case SegmentSet::short_02: return near_surface(0.002);
-            case SegmentSet::short_1: return near_surface(0.01);
-            case SegmentSet::medium: return near_surface(0.1);
-            case SegmentSet::aimed: return aimed();
-            case SegmentSet::random: return along(in_box(), 0.5);
-            case SegmentSet::cloud: return along(in_box(), 0.0025);
-            case SegmentSet::rest: return resting();
-            case SegmentSet::axis: return on_lattice();
+            case SegmentSet::short_02:
+                return near_surface(0.002);
+            case SegmentSet::short_1:
+                return near_surface(0.01);
+            case SegmentSet::medium:
+                return near_surface(0.1);
+            case SegmentSet::aimed:
+                return aimed();
+            case SegmentSet::random:
+                return along(in_box(), 0.5);
+            case SegmentSet::cloud:
+                return along(in_box(), 0.0025);
+            case SegmentSet::rest:
+                return resting();
+            case SegmentSet::axis:
+                return on_lattice();
         }
         return {};
     }
@@ -52,7 +60,8 @@ class Maker {
             t = std::min(static_cast<std::size_t>(at - areas_.begin()), areas_.size() - 1);
         }
         const Vector w = random_.weights();
-        return {w[0] * test::corner(mesh_, t, 0) + w[1] * test::corner(mesh_, t, 1) + w[2] * test::corner(mesh_, t, 2), t};
+        return {w[0] * test::corner(mesh_, t, 0) + w[1] * test::corner(mesh_, t, 1) + w[2] * test::corner(mesh_, t, 2),
+                t};
     }
 
     Vector in_box() {
@@ -105,7 +114,9 @@ class Maker {
         return extent_.low + (extent_.high - extent_.low).cwiseProduct(Vector(at[0], at[1], at[2]) / 64);
     }
 
-    static Segment<float> rounded(const Vector& from, const Vector& to) { return {from.cast<float>(), to.cast<float>()}; }
+    static Segment<float> rounded(const Vector& from, const Vector& to) {
+        return {from.cast<float>(), to.cast<float>()};
+    }
 
     const MeshView<float>& mesh_;
     test::Extent<float> extent_;

@@ -26,23 +26,27 @@ struct Options {
 
 Options parse(int argc, char** argv) {
     Options options;
-    bool no_large = true;
     for (int i = 1; i < argc; ++i) {
         const std::string argument = argv[i];
         const auto value = [&]() -> std::string {
             if (++i == argc) throw std::invalid_argument(argument + " needs a value");
             return argv[i];
         };
-        if (argument == "--quick") options.quick = true;
-        else if (argument == "--large") no_large = false;
-        else if (argument == "--seconds") options.seconds = std::stod(value());
-        else if (argument == "--out") options.out = value();
+        if (argument == "--quick")
+            options.quick = true;
+        else if (argument == "--large")
+            options.large = true;
+        else if (argument == "--seconds")
+            options.seconds = std::stod(value());
+        else if (argument == "--out")
+            options.out = value();
         else if (argument.starts_with('-') || !options.filter.empty())
             throw std::invalid_argument("usage: speed [--quick] [--large] [--seconds S] [--out FOLDER] [FILTER]");
-        else options.filter = argument;
+        else
+            options.filter = argument;
     }
-    options.large = !no_large || !options.quick;
-    if (options.seconds <= 0) options.seconds = options.quick ? 0.06 : 1;
+    if (!options.quick) options.large = true;
+    if (options.seconds <= 0) options.seconds = options.quick ? 0.06 : 0.5;
     return options;
 }
 
@@ -51,7 +55,9 @@ class Suite {
     explicit Suite(const Options& options)
         : options_(options),
           plan_{options.quick},
-          effort_{.segments = options.quick ? 40'000U : 200'000U, .seconds = options.seconds, .repetitions = options.quick ? 5 : 7} {}
+          effort_{.segments = options.quick ? 40'000U : 200'000U,
+                  .seconds = options.seconds,
+                  .repetitions = options.quick ? 5 : 7} {}
 
     /// Returns whether answers agreed.
     bool run() {
@@ -78,7 +84,8 @@ class Suite {
         std::cout << "Embree " << embree_version() << ", Bullet " << bullet_version() << ", CGAL " << cgal_version()
                   << ", as Debian builds them.\n\n"
                   << k_columns_text << "\nMedians of " << effort_.repetitions << " interleaved repetitions, of up to "
-                  << effort_.segments << " segments each, or " << effort_.seconds << " s for a figure. Medians over meshes are over:";
+                  << effort_.segments << " segments each, or " << effort_.seconds
+                  << " s for a figure. Medians over meshes are over:";
         for (const BenchMesh& mesh : meshes)
             if (mesh.kind == MeshKind::real) std::cout << ' ' << mesh.name;
         std::cout << "\n\n" << std::flush;
@@ -88,7 +95,7 @@ class Suite {
         std::vector<SegmentSet> sets;
         for (const SegmentSet set : k_segment_sets)
             if (plan_.wanted(mesh, set) && selected(mesh, name_of(set))) sets.push_back(set);
-        const bool builds = selected(mesh, set_name::build);
+        const bool builds = selected(mesh, set_name::build) || selected(mesh, set_name::thread_build);
         const bool memory = selected(mesh, set_name::memory);
         const bool threads = selected(mesh, set_name::threads) && mesh.kind != MeshKind::sphere;
         if (sets.empty() && !builds && !memory && !threads) return;
@@ -99,7 +106,8 @@ class Suite {
         if (memory) measure_memory(mesh.name, soup.view(), results_);
         if (threads) measure_threads(mesh.name, soup.view(), effort_, results_);
         if (!sets.empty()) measure_queries(mesh, soup, sets);
-        std::cerr << mesh.name << ": " << soup.triangles.size() << " faces, " << seconds_now(Clock::wall) - start << " s\n";
+        std::cerr << mesh.name << ": " << soup.triangles.size() << " faces, " << seconds_now(Clock::wall) - start
+                  << " s\n";
     }
 
     void measure_queries(const BenchMesh& mesh, const TriangleSoup<float>& soup, const std::vector<SegmentSet>& sets) {
@@ -109,8 +117,8 @@ class Suite {
         if (plan_.all_columns(mesh)) {
             std::vector<Vec3<double>> positions;
             for (const Vec3<float>& p : soup.positions) positions.push_back(p.cast<double>());
-            add_pierce_columns<double>(
-                columns, std::make_shared<const CollisionMesh<double>>(MeshView<double>{positions, soup.triangles, soup.faces}));
+            add_pierce_columns<double>(columns, std::make_shared<const CollisionMesh<double>>(
+                                                    MeshView<double>{positions, soup.triangles, soup.faces}));
             add_bullet_column(columns, soup.view());
             add_cgal_columns(columns, soup.view());
         }
