@@ -1,14 +1,9 @@
-// Bullet: a world with one btBvhTriangleMeshShape, asked by btCollisionWorld::rayTest. In float, as Debian builds it.
-#include <btBulletCollisionCommon.h>
-
-#include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
-
+// Bullet: a world with one btBvhTriangleMeshShape, asked by btCollisionWorld::rayTest.
+#include "bullet_shape.h"
 #include "peers.h"
 
 namespace pierce::bench {
 namespace {
-
-static_assert(sizeof(btScalar) == sizeof(float));
 
 btVector3 to_bullet(const Point& p) {
     const Vec3<float> q = p.cast<float>();
@@ -19,16 +14,7 @@ Point from_bullet(const btVector3& p) { return {double(p.x()), double(p.y()), do
 class Bullet : public Peer {
   public:
     Bullet(const TriangleSoup<float>& soup, unsigned flags) : soup_(soup), flags_(flags) {
-        btIndexedMesh part;
-        part.m_numTriangles = static_cast<int>(soup_.triangles.size());
-        part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(soup_.triangles.data());
-        part.m_triangleIndexStride = sizeof(IndexTriple);
-        part.m_numVertices = static_cast<int>(soup_.positions.size());
-        part.m_vertexBase = reinterpret_cast<const unsigned char*>(soup_.positions.data());
-        part.m_vertexStride = sizeof(Vec3<float>);
-        triangles_.addIndexedMesh(part);
-        shape_ = std::make_unique<btBvhTriangleMeshShape>(&triangles_, true);  // "recommended", says its header
-        object_.setCollisionShape(shape_.get());
+        object_.setCollisionShape(&shape_.get());
         world_.addCollisionObject(&object_);
     }
     ~Bullet() override { world_.removeCollisionObject(&object_); }
@@ -52,8 +38,7 @@ class Bullet : public Peer {
   private:
     TriangleSoup<float> soup_;  // the shape reads its arrays
     unsigned flags_;
-    btTriangleIndexVertexArray triangles_;
-    std::unique_ptr<btBvhTriangleMeshShape> shape_;
+    BulletShape shape_{soup_.view()};
     btCollisionObject object_;
     btDefaultCollisionConfiguration configuration_;
     btCollisionDispatcher dispatcher_{&configuration_};

@@ -1,18 +1,13 @@
 // Embree 3: rtcIntersect1 for the first hit, a filter function in the intersection context for all of them. Debian's
 // build does not cull backs, so both sides count unless the same filter rejects backs.
-#include <cstring>
-#include <stdexcept>
-
-#include <embree3/rtcore.h>
-
+#include "embree_scene.h"
 #include "peers.h"
 
 namespace pierce::bench {
 namespace {
 
-RTCDevice device() {
-    static const RTCDevice instance = rtcNewDevice(nullptr);
-    if (instance == nullptr) throw std::runtime_error("Embree does not start");
+const EmbreeDevice& device() {
+    static const EmbreeDevice instance("");
     return instance;
 }
 
@@ -41,22 +36,9 @@ void filter(const RTCFilterFunctionNArguments* arguments) {
 class Embree : public Peer {
   public:
     Embree(const TriangleSoup<float>& soup, RTCSceneFlags flags, Backs backs)
-        : scene_(rtcNewScene(device())), cull_backs_(backs == Backs::culled) {
-        rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(flags | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-        const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
-        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                 3 * sizeof(float), soup.positions.size());
-        void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                3 * sizeof(unsigned), soup.triangles.size());
-        std::memcpy(vertices, soup.positions.data(), soup.positions.size() * sizeof(Vec3<float>));
-        std::memcpy(indices, soup.triangles.data(), soup.triangles.size() * sizeof(IndexTriple));
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene_, geometry);
-        rtcReleaseGeometry(geometry);
-        rtcCommitScene(scene_);
-        if (rtcGetDeviceError(device()) != RTC_ERROR_NONE) throw std::runtime_error("Embree does not take the mesh");
-    }
-    ~Embree() override { rtcReleaseScene(scene_); }
+        : scene_(device(), soup.view(),
+                 {.flags = static_cast<RTCSceneFlags>(flags | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION)}),
+          cull_backs_(backs == Backs::culled) {}
 
     [[nodiscard]] Point rounded(const Point& p) const override { return p.cast<float>().cast<double>(); }
 
@@ -77,18 +59,8 @@ class Embree : public Peer {
   private:
     static RTCRayHit ray_along(const Point& from, const Point& to) {
         const Vec3<float> start = from.cast<float>();
-        const Vec3<float> way = to.cast<float>() - start;
         RTCRayHit ray = {};
-        ray.ray.org_x = start[0];
-        ray.ray.org_y = start[1];
-        ray.ray.org_z = start[2];
-        ray.ray.dir_x = way[0];
-        ray.ray.dir_y = way[1];
-        ray.ray.dir_z = way[2];
-        ray.ray.tnear = 0;
-        ray.ray.tfar = 1;
-        ray.ray.mask = ~0u;
-        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        set_ray(ray, start, to.cast<float>() - start);
         return ray;
     }
 
@@ -96,11 +68,11 @@ class Embree : public Peer {
         Query query = {.context = {}, .cull_backs = cull_backs_, .take_none = take_none, .count = 0};
         rtcInitIntersectContext(&query.context);
         if (cull_backs_ || take_none) query.context.filter = filter;
-        rtcIntersect1(scene_, &query.context, &ray);
+        rtcIntersect1(scene_.get(), &query.context, &ray);
         return query.count;
     }
 
-    RTCScene scene_;
+    EmbreeScene scene_;
     bool cull_backs_;
 };
 

@@ -35,14 +35,19 @@ TriangleSoup<Scalar> turned_inside_out(TriangleSoup<Scalar> soup) {
 template <class Radius>
 TriangleSoup<double> star(int n, Radius&& radius) {
     TriangleSoup<double> soup;
-    std::map<std::array<int, 3>, std::uint32_t> index;
+    // Each point of the octahedron is known by x, y and the sign of z.
+    constexpr std::uint32_t none = ~0U;
+    const auto width = static_cast<std::size_t>(2 * n + 1);
+    std::vector<std::uint32_t> index(2 * width * width, none);
     const auto vertex = [&](int x, int y, int z) {
-        const auto [at, isnew] = index.try_emplace({x, y, z}, static_cast<std::uint32_t>(soup.positions.size()));
-        if (isnew) {
+        const std::size_t row = (z < 0 ? width : 0) + static_cast<std::size_t>(x + n);
+        std::uint32_t& place = index[row * width + static_cast<std::size_t>(y + n)];
+        if (place == none) {
+            place = static_cast<std::uint32_t>(soup.positions.size());
             const Vec3<double> direction = Vec3<double>(x, y, z).normalized();
             soup.positions.push_back(direction * radius(direction));
         }
-        return at->second;
+        return place;
     };
     for (int octant = 0; octant < 8; ++octant) {
         const int sx = (octant & 1) != 0 ? -1 : 1;
