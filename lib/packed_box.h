@@ -8,7 +8,8 @@
 namespace pierce::detail {
 
 /// Steps to a cell, along each axis: what a packed box is measured in, counted from the cell's lower corner.
-constexpr int k_steps = 128;
+constexpr int k_step_bits = 7;
+constexpr int k_steps = 1 << k_step_bits;
 
 /// A closed box in steps; three integers each.
 struct Steps {
@@ -55,7 +56,7 @@ namespace packing {
 }
 
 /// Leaves the boxes that share a step with `box` in a cell.
-[[nodiscard]] inline Cull cull_of(const Steps& box, const std::array<int, 3>& cell) {
+[[nodiscard, gnu::always_inline]] inline Cull cull_of(const Steps& box, const std::array<int, 3>& cell) {
     Cull cull{packing::byte(127, 3) | packing::byte(127, 7), 0};
     for (std::size_t k = 0; k < 3; ++k) {
         const int corner = cell[k] * k_steps;

@@ -26,8 +26,8 @@ void write_mesh(std::ostream& out, const Report& report) {
     out << ", of them " << grouped(mesh.degenerate) << " of zero area and " << counted(report.odd.duplicates, "duplicate")
         << "; " << counted(mesh.vertices, "vertex", "vertices") << "; "
         << (report.odd.closed() ? "closed" : "not closed: " + counted(report.odd.border_edges, "border edge")) << '\n';
-    out << "grid      " << mesh.grid_cells[0] << " x " << mesh.grid_cells[1] << " x " << mesh.grid_cells[2]
-        << " cells, " << per(static_cast<double>(mesh.grid_references), mesh.triangles) << " references and "
+    out << "grid      " << mesh.grid_levels << (mesh.grid_levels == 1 ? " level" : " levels") << " from cells of " << mesh.cell_size
+        << ", " << per(static_cast<double>(mesh.grid_references), mesh.triangles) << " references and "
         << per(static_cast<double>(mesh.bytes), mesh.triangles) << " bytes a triangle\n";
 }
 

@@ -32,7 +32,11 @@ struct MeshStatistics {
     std::uint64_t invalid_queries = 0; ///< queries so far with a coordinate that is NaN or infinite: they had no hit
 };
 
-/// Triangles, prepared, in a uniform grid. Copies what it needs of the mesh.
+/// Points as the columns of a matrix; a block or a map of one as well, if its columns are contiguous.
+template <class Scalar>
+using Points = Eigen::Ref<const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>, 0, Eigen::OuterStride<>>;
+
+/// Triangles in uniform grids. Copies what it needs of the mesh.
 ///
 /// Queries never throw, never assert and end for every input. The answer depends on the mesh and the segment only, to the
 /// last bit: not on the grid, the threads, the machine or the order of queries. They are slow, milliseconds and more, for segments that
@@ -68,6 +72,25 @@ class CollisionMesh {
     /// If the answer is empty it may be moved to `to`; otherwise to the hit's `point`, and never further.
     [[nodiscard]] std::optional<SweepHit<Scalar>> sweep(const Vec3<Scalar>& from, const Vec3<Scalar>& to,
                                                         const QueryOptions& options = {}) const noexcept;
+
+    /// Many queries in one call: `out[i]` is what the single query for number i gives, to the last bit, whatever the executor and however
+    /// the queries are cut into calls. Several times as fast as single calls where the mesh does not fit into the caches, since the queries
+    /// wait for memory together. Returns the number of hits. Allocates nothing. `out` must be as long as the queries are many; if
+    /// it is not, std::invalid_argument is thrown.
+    std::size_t first_hits(std::span<const Segment<Scalar>> segments, std::span<std::optional<Hit<Scalar>>> out,
+                           const BatchOptions& options = {}) const;
+    std::size_t any_hits(std::span<const Segment<Scalar>> segments, std::span<std::uint8_t> out,
+                         const BatchOptions& options = {}) const;
+    std::size_t sweep_points(std::span<const Vec3<Scalar>> from, std::span<const Vec3<Scalar>> to,
+                             std::span<std::optional<SweepHit<Scalar>>> out, const BatchOptions& options = {}) const;
+
+    /// The same for points as the columns of matrices, which may be blocks or maps of others.
+    std::size_t first_hits(const Points<Scalar>& from, const Points<Scalar>& to, std::span<std::optional<Hit<Scalar>>> out,
+                           const BatchOptions& options = {}) const;
+    std::size_t any_hits(const Points<Scalar>& from, const Points<Scalar>& to, std::span<std::uint8_t> out,
+                         const BatchOptions& options = {}) const;
+    std::size_t sweep_points(const Points<Scalar>& from, const Points<Scalar>& to,
+                             std::span<std::optional<SweepHit<Scalar>>> out, const BatchOptions& options = {}) const;
 
     /// How often the segment passes through the surface: +1 for each crossing from the front to the back of a face, -1 for each
     /// from back to front. Another rule than that for hits: the ends are taken as moved by an infinitesimal step that is

@@ -89,4 +89,10 @@ struct QueryOptions {
     QueryCounters* counters = nullptr;
 };
 
+/// For many queries in one call. With an executor, `accept` is called from its threads.
+struct BatchOptions : QueryOptions {
+    /// Answers in parallel, if given: parts of a thousand queries or so.
+    Executor executor = {};
+};
+
 }  // namespace pierce

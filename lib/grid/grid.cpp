@@ -2,6 +2,7 @@
 #include <grid/grid.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,11 +15,14 @@ namespace {
 
 // A cell is this many times as wide as the median box. Surfaces fill cells by area: at 2 a cell lists some ten triangles and
 // a triangle is in some three cells. Measured (tests/bench/run): less takes memory, more takes time.
-constexpr double k_cell = 2;
+constexpr double k_cell = 1.6;
 // The next level's cells are this many times as wide; a box goes to the first level whose cells are not much smaller than it.
 constexpr double k_next_level = 4;
 constexpr double k_largest_box = 2;
 constexpr std::size_t k_most_levels = 24;
+constexpr double k_finest = 0x1p24;       ///< cells at the usual size are this many times as wide as those of the finest level
+constexpr double k_crowded = 48;          ///< see crowd()
+constexpr double k_most_extra = 0.5;  ///< entries for each triangle that is there already, rather than a level more
 
 template <class Scalar>
 double extent(const PlainBox<Scalar>& box) {
@@ -34,7 +38,7 @@ double usual_extent(std::span<const PlainBox<Scalar>> boxes) {
     for (std::size_t i = 0; i < boxes.size(); i += stride)
         if (boxes[i].listed()) some.push_back(extent(boxes[i]));
     if (some.empty()) return 0;
-    const auto place = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 8);
+    const auto place = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
     std::nth_element(some.begin(), place, some.end());
     return *place;
 }
@@ -46,6 +50,17 @@ struct Share {
             {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
              -std::numeric_limits<double>::infinity()}};
     std::vector<std::uint32_t> ids;
+
+    void take(Share& other) {
+        std::vector<std::uint32_t> both(ids.size() + other.ids.size());
+        std::merge(ids.begin(), ids.end(), other.ids.begin(), other.ids.end(), both.begin());
+        ids.swap(both);
+        other.ids.clear();
+        for (std::size_t k = 0; k < 3; ++k) {
+            box.low[k] = std::min(box.low[k], other.box.low[k]);
+            box.high[k] = std::max(box.high[k], other.box.high[k]);
+        }
+    }
 
     template <class Scalar>
     void add(std::uint32_t id, const PlainBox<Scalar>& other) {
@@ -89,6 +104,39 @@ Steps steps_of(const Raster& raster, const PlainBox<Scalar>& box) {
     return raster.steps(point(box.low), point(box.high));
 }
 
+/// How many of the boxes share a cell of a size with the average one of them, by their lower corners. (Cells that share a place of the table
+/// count as one.)
+template <class Scalar>
+double crowd(const Share& share, std::span<const PlainBox<Scalar>> boxes, double cell) {
+    const std::size_t places = std::bit_ceil(2 * share.ids.size());
+    std::vector<std::uint32_t> counts(places, 0);
+    const Raster raster(share.box, cell);
+    double sum = 0;
+    for (const std::uint32_t id : share.ids) {
+        const std::array<int, 3> at = raster.cell_of(steps_of(raster, boxes[id]).low);
+        const std::uint64_t key = static_cast<std::uint64_t>(at[0]) << 42 | static_cast<std::uint64_t>(at[1]) << 21 |
+                                  static_cast<std::uint64_t>(at[2]);
+        // Fibonacci hashing (Knuth, volume 3, 6.4).
+        std::uint32_t& count = counts[(key * 0x9e3779b97f4a7c15) >> 20 & (places - 1)];
+        sum += 2 * count + 1;  // (n + 1)^2 - n^2
+        ++count;
+    }
+    return sum / static_cast<double>(share.ids.size());
+}
+
+/// About how many cells of a size the boxes of a level would be listed in.
+template <class Scalar>
+double cells_for(const Share& share, std::span<const PlainBox<Scalar>> boxes, double cell) {
+    double sum = 0;
+    for (const std::uint32_t id : share.ids) {
+        double cells = 1;
+        for (std::size_t k = 0; k < 3; ++k)
+            cells *= (static_cast<double>(boxes[id].high[k]) - static_cast<double>(boxes[id].low[k])) / cell + 1;
+        sum += cells;
+    }
+    return sum;
+}
+
 /// The triangles of a level in the order of their cells.
 template <class Scalar>
 void sort_by_cell(const Raster& raster, std::span<const PlainBox<Scalar>> boxes, std::vector<std::uint32_t>& ids,
@@ -124,9 +172,6 @@ Level build_level(const Box& box, std::vector<std::uint32_t>& ids, std::uint32_t
     for (;; size *= 1.25) {
         const Raster raster(box, size);
         const bool single = raster.cells() == std::array<int, 3>{1, 1, 1};
-        // Bricks take up to 8 bytes a box; the more there are, the tighter the cells.
-        const double directory = LevelBuilder::directory_bytes(raster);
-        if (!single && directory > 1024.0 + 8.0 * static_cast<double>(ids.size())) continue;
         if (!sorted) sort_by_cell(raster, boxes, ids, executor);
         sorted = true;
         executor((steps.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
@@ -134,8 +179,9 @@ Level build_level(const Box& box, std::vector<std::uint32_t>& ids, std::uint32_t
             for (std::size_t i = chunk * k_chunk; i < end; ++i) steps[i] = steps_of(raster, boxes[ids[i]]);
         });
         LevelBuilder builder(raster, first, steps);
-        // A start for each cell that lists something: at most one for each reference.
-        const double bytes = directory + 16.0 * static_cast<double>(builder.reference_count());
+        // 16 bytes a reference: a start for each cell that lists something, and there are at most as many of these. For roots, see
+        // the builder; further nodes are few.
+        const double bytes = 16.0 * static_cast<double>(builder.reference_count()) + 8.0 * static_cast<double>(ids.size()) + 1024;
         if (!single && (bytes > static_cast<double>(max_bytes) || builder.reference_count() > 0xffff'fff0U)) continue;
         return builder.build(executor);
     }
@@ -146,13 +192,14 @@ Level build_level(const Box& box, std::vector<std::uint32_t>& ids, std::uint32_t
 template <class Scalar>
 Grid::Grid(std::span<const PlainBox<Scalar>> boxes, const GridOptions& options, const Executor& executor) {
     const double size = options.cell_size > 0 ? options.cell_size : std::max(k_cell * usual_extent(boxes), 0x1p-1000);
+    const double finest = options.cell_size > 0 ? size : size / k_finest;
     std::array<Share, k_most_levels> shares;
     std::size_t listed = 0;
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
         if (!boxes[i].listed()) continue;
         const double reach = extent(boxes[i]);
         std::size_t level = 0;
-        double largest = k_largest_box * size;
+        double largest = k_largest_box * finest;
         while (level + 1 < k_most_levels && reach > largest) {
             ++level;
             largest *= k_next_level;
@@ -160,8 +207,32 @@ Grid::Grid(std::span<const PlainBox<Scalar>> boxes, const GridOptions& options, 
         shares[level].add(i, boxes[i]);
         ++listed;
     }
-    double cell = size;
+    // Those that are smaller than the rest need cells of their own only where they are crowded; a few that are larger are not
+    // worth a level, which every query has to ask.
+    double cell = finest;
+    for (std::size_t level = 0; level < k_most_levels; ++level, cell *= k_next_level) {
+        if (shares[level].ids.empty()) continue;
+        std::size_t coarser = level + 1;
+        double coarser_cell = cell * k_next_level;
+        for (; coarser < k_most_levels && shares[coarser].ids.empty(); ++coarser) coarser_cell *= k_next_level;
+        if (coarser == k_most_levels || options.cell_size > 0) break;
+        if (crowd(shares[level], boxes, coarser_cell) < k_crowded) shares[coarser].take(shares[level]);
+    }
+    cell = finest;
+    std::size_t finer = k_most_levels;
+    double finer_cell = 0;
+    for (std::size_t level = 0; level < k_most_levels; ++level, cell *= k_next_level) {
+        Share& share = shares[level];
+        if (share.ids.empty()) continue;
+        if (finer < k_most_levels && cells_for(share, boxes, finer_cell) < k_most_extra * static_cast<double>(shares[finer].ids.size())) {
+            shares[finer].take(share);
+            continue;
+        }
+        finer = level;
+        finer_cell = cell;
+    }
     order_.reserve(listed);
+    cell = finest;
     for (Share& share : shares) {
         if (!share.ids.empty()) {
             const double part = static_cast<double>(share.ids.size()) / static_cast<double>(listed);

@@ -2,7 +2,9 @@
 #include <grid/level_builder.h>
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
+#include <tuple>
 
 namespace pierce::detail {
 
@@ -15,30 +17,36 @@ constexpr std::size_t k_boxes_a_slab = 4096;
 
 LevelBuilder::LevelBuilder(const Raster& raster, std::uint32_t first, std::span<const Steps> boxes)
     : raster_(raster), first_(first), boxes_(boxes) {
-    for (std::size_t k = 0; k < 3; ++k) bricks_[k] = (raster.cells()[k] + 3) / 4;
-    slow_ = static_cast<std::size_t>(std::max_element(bricks_.begin(), bricks_.end()) - bricks_.begin());
-    const std::size_t fast = (slow_ + 1) % 3;
-    const std::size_t middle = (slow_ + 2) % 3;
-    strides_[fast] = 1;
-    strides_[middle] = static_cast<std::size_t>(bricks_[fast]);
-    strides_[slow_] = strides_[middle] * static_cast<std::size_t>(bricks_[middle]);
+    place_roots();
     const auto wanted = static_cast<int>(std::clamp<std::size_t>(boxes.size() / k_boxes_a_slab, 1, std::size_t{1} << 20));
-    layers_ = std::max(1, bricks_[slow_] / wanted);
-    slabs_ = static_cast<std::size_t>((bricks_[slow_] + layers_ - 1) / layers_);
+    layers_ = std::max(1, roots_[slow_] / wanted);
+    slabs_ = static_cast<std::size_t>((roots_[slow_] + layers_ - 1) / layers_);
     sort_by_slab();
 }
 
-double LevelBuilder::directory_bytes(const Raster& raster) {
-    double bytes = sizeof(Brick);
-    for (const int cells : raster.cells()) bytes *= (cells + 3) / 4;
-    return bytes;
+// Roots as small as they may be for eight bytes of them a triangle: bricks, if the mesh fills its box as evenly as a surface does.
+void LevelBuilder::place_roots() {
+    for (root_shift_ = 2;; root_shift_ += 2) {
+        double roots = 1;
+        for (std::size_t k = 0; k < 3; ++k) {
+            roots_[k] = ((raster_.cells()[k] - 1) >> root_shift_) + 1;
+            roots *= roots_[k];
+        }
+        if (roots <= static_cast<double>(boxes_.size() / 2 + 64)) break;
+    }
+    slow_ = static_cast<std::size_t>(std::max_element(roots_.begin(), roots_.end()) - roots_.begin());
+    const std::size_t fast = (slow_ + 1) % 3;
+    const std::size_t middle = (slow_ + 2) % 3;
+    strides_[fast] = 1;
+    strides_[middle] = static_cast<std::size_t>(roots_[fast]);
+    strides_[slow_] = strides_[middle] * static_cast<std::size_t>(roots_[middle]);
 }
 
 LevelBuilder::Cells LevelBuilder::cells_of(const Steps& box) const {
     Cells cells{};
     for (std::size_t k = 0; k < 3; ++k) {
-        cells.first[k] = std::max(box.low[k] - k_margin, 0) / k_steps;
-        cells.last[k] = std::min((box.high[k] + k_margin) / k_steps, raster_.cells()[k] - 1);
+        cells.first[k] = std::max(box.low[k] - k_margin, 0) >> k_step_bits;
+        cells.last[k] = std::min((box.high[k] + k_margin) >> k_step_bits, raster_.cells()[k] - 1);
     }
     return cells;
 }
@@ -53,8 +61,8 @@ void LevelBuilder::sort_by_slab() {
             if (k != slow_) area *= static_cast<std::size_t>(cells.last[k] - cells.first[k] + 1);
         const int last = slab_of(cells.last[slow_]);
         for (int slab = slab_of(cells.first[slow_]); slab <= last; ++slab) {
-            const int first_cell = std::max(cells.first[slow_], slab * layers_ * 4);
-            const int last_cell = std::min(cells.last[slow_], (slab + 1) * layers_ * 4 - 1);
+            const int first_cell = std::max(cells.first[slow_], slab * layers_ << root_shift_);
+            const int last_cell = std::min(cells.last[slow_], ((slab + 1) * layers_ << root_shift_) - 1);
             ++slab_starts_[static_cast<std::size_t>(slab) + 1];
             references[static_cast<std::size_t>(slab) + 1] += area * static_cast<std::size_t>(last_cell - first_cell + 1);
         }
@@ -67,9 +75,17 @@ void LevelBuilder::sort_by_slab() {
         reference_starts_[slab + 1] = reference_starts_[slab] + static_cast<std::uint32_t>(references[slab + 1]);
 }
 
+template <class Visit>
+void LevelBuilder::each_cell(const Cells& cells, Visit&& visit) const {
+    Cell cell{};
+    for (cell[2] = cells.first[2]; cell[2] <= cells.last[2]; ++cell[2])
+        for (cell[1] = cells.first[1]; cell[1] <= cells.last[1]; ++cell[1])
+            for (cell[0] = cells.first[0]; cell[0] <= cells.last[0]; ++cell[0]) visit(cell);
+}
+
 void LevelBuilder::fill_slab(Level& level, std::size_t slab, std::vector<std::uint32_t>& starts) const {
     const int first_layer = static_cast<int>(slab) * layers_;
-    const int last_layer = std::min(first_layer + layers_, bricks_[slow_]);
+    const int last_layer = std::min(first_layer + layers_, roots_[slow_]);
     const std::size_t first_brick = static_cast<std::size_t>(first_layer) * strides_[slow_];
     const std::size_t brick_count = static_cast<std::size_t>(last_layer - first_layer) * strides_[slow_];
     // For each cell of the slab, in the order of bricks and of bits: how many boxes it lists, then where the next one goes.
@@ -78,28 +94,25 @@ void LevelBuilder::fill_slab(Level& level, std::size_t slab, std::vector<std::ui
     const auto place = [&](std::size_t k, int cell) {
         return static_cast<std::size_t>(cell >> 2) * strides_[k] * 64 + (static_cast<std::size_t>(cell & 3) << (2 * k));
     };
-    const auto each_cell = [&](const Steps& box, auto&& visit) {
+    const auto cells_in_slab = [&](const Steps& box, auto&& visit) {
         Cells cells = cells_of(box);
         cells.first[slow_] = std::max(cells.first[slow_], first_layer * 4);
         cells.last[slow_] = std::min(cells.last[slow_], last_layer * 4 - 1);
-        Cell cell{};
-        for (cell[2] = cells.first[2]; cell[2] <= cells.last[2]; ++cell[2])
-            for (cell[1] = cells.first[1]; cell[1] <= cells.last[1]; ++cell[1]) {
-                const std::size_t row = place(1, cell[1]) + place(2, cell[2]) - first_brick * 64;
-                for (cell[0] = cells.first[0]; cell[0] <= cells.last[0]; ++cell[0]) visit(row + place(0, cell[0]), cell);
-            }
+        each_cell(cells, [&](const Cell& cell) {
+            visit(place(0, cell[0]) + place(1, cell[1]) + place(2, cell[2]) - first_brick * 64, cell);
+        });
     };
     const std::span<const std::uint32_t> mine(sorted_.data() + slab_starts_[slab], slab_starts_[slab + 1] - slab_starts_[slab]);
-    for (const std::uint32_t i : mine) each_cell(boxes_[i], [&](std::size_t cell, const Cell&) { ++next[cell]; });
+    for (const std::uint32_t i : mine) cells_in_slab(boxes_[i], [&](std::size_t cell, const Cell&) { ++next[cell]; });
 
     std::uint32_t sum = reference_starts_[slab];
     for (std::size_t b = 0; b < brick_count; ++b) {
-        Brick& brick = level.bricks_[first_brick + b];
+        Node& brick = level.nodes_[first_brick + b];
         brick.first = static_cast<std::uint32_t>(starts.size());
         for (std::size_t bit = 0; bit < 64; ++bit) {
             std::uint32_t& cell = next[b * 64 + bit];
             if (cell == 0) continue;
-            brick.cells |= std::uint64_t{1} << bit;
+            brick.parts |= std::uint64_t{1} << bit;
             starts.push_back(sum);
             const std::uint32_t count = cell;
             cell = sum;
@@ -107,80 +120,143 @@ void LevelBuilder::fill_slab(Level& level, std::size_t slab, std::vector<std::ui
         }
     }
     for (const std::uint32_t i : mine)
-        each_cell(boxes_[i], [&](std::size_t at, const Cell& cell) {
+        cells_in_slab(boxes_[i], [&](std::size_t at, const Cell& cell) {
             const std::uint32_t to = next[at]++;
             level.boxes_[to] = pack(boxes_[i], cell);
             level.ids_[to] = first_ + i;
         });
 }
 
-// The distance in the maximum norm to the nearest brick that is not empty (Rosenfeld and Pfaltz 1966: two passes, each from the
+// The distance in the maximum norm to the nearest root that is not empty (Rosenfeld and Pfaltz 1966: two passes, each from the
 // neighbours that the pass has seen).
-void LevelBuilder::measure_empty_space(Level& level, const std::array<int, 3>& bricks) {
+void LevelBuilder::measure_empty_space(Level& level) const {
     constexpr std::uint32_t k_far = 1U << 20;
-    for (Brick& brick : level.bricks_) brick.empty = brick.cells != 0 ? 0 : k_far;
-    std::array<std::ptrdiff_t, 3> stride{};
-    for (std::size_t k = 0; k < 3; ++k) stride[k] = static_cast<std::ptrdiff_t>(level.strides_[k]);
+    const std::size_t count = strides_[slow_] * static_cast<std::size_t>(roots_[slow_]);
+    for (std::size_t i = 0; i < count; ++i) level.nodes_[i].empty = level.nodes_[i].parts != 0 ? 0 : k_far;
     for (const int way : {1, -1}) {
         Cell b{};
         const auto each = [&](std::size_t k, auto&& body) {
-            for (int i = 0; i < bricks[k]; ++i) {
-                b[k] = way > 0 ? i : bricks[k] - 1 - i;
+            for (int i = 0; i < roots_[k]; ++i) {
+                b[k] = way > 0 ? i : roots_[k] - 1 - i;
                 body();
             }
         };
+        const auto node = [&](const Cell& at) -> Node& {
+            return level.nodes_[static_cast<std::size_t>(at[0]) * strides_[0] + static_cast<std::size_t>(at[1]) * strides_[1] +
+                                static_cast<std::size_t>(at[2]) * strides_[2]];
+        };
         each(2, [&] { each(1, [&] { each(0, [&] {
-            const std::ptrdiff_t at = b[0] * stride[0] + b[1] * stride[1] + b[2] * stride[2];
-            std::uint32_t& empty = level.bricks_[static_cast<std::size_t>(at)].empty;
+            std::uint32_t& empty = node(b).empty;
             if (empty == 0) return;
             for (int dz = -1; dz <= 0; ++dz)
                 for (int dy = -1; dy <= (dz < 0 ? 1 : 0); ++dy)
                     for (int dx = -1; dx <= (dz < 0 || dy < 0 ? 1 : -1); ++dx) {
                         const Cell n = {b[0] + way * dx, b[1] + way * dy, b[2] + way * dz};
                         bool inside = true;
-                        for (std::size_t k = 0; k < 3; ++k) inside = inside && n[k] >= 0 && n[k] < bricks[k];
-                        if (!inside) continue;
-                        const std::ptrdiff_t near = n[0] * stride[0] + n[1] * stride[1] + n[2] * stride[2];
-                        empty = std::min(empty, level.bricks_[static_cast<std::size_t>(near)].empty + 1);
+                        for (std::size_t k = 0; k < 3; ++k) inside = inside && n[k] >= 0 && n[k] < roots_[k];
+                        if (inside) empty = std::min(empty, node(n).empty + 1);
                     }
         }); }); });
     }
 }
 
-Level LevelBuilder::build(const Executor& executor) {
-    sorted_.resize(slab_starts_.back());
-    std::vector<std::uint32_t> next(slab_starts_.begin(), slab_starts_.end() - 1);
-    for (std::size_t i = 0; i < boxes_.size(); ++i) {
-        const Cells cells = cells_of(boxes_[i]);
-        for (int slab = slab_of(cells.first[slow_]); slab <= slab_of(cells.last[slow_]); ++slab)
-            sorted_[next[static_cast<std::size_t>(slab)]++] = static_cast<std::uint32_t>(i);
-    }
-
-    Level level;
-    level.raster_ = raster_;
-    level.strides_ = strides_;
-    level.references_ = references_;
-    level.bricks_.resize(static_cast<std::size_t>(bricks_[0]) * static_cast<std::size_t>(bricks_[1]) *
-                         static_cast<std::size_t>(bricks_[2]));
-    level.boxes_ = std::make_unique_for_overwrite<PackedBox[]>(references_ + Level::k_beyond);
-    std::fill_n(level.boxes_.get() + references_, Level::k_beyond, 0);
-    level.ids_ = std::make_unique_for_overwrite<std::uint32_t[]>(references_);
+void LevelBuilder::build_dense(Level& level, const Executor& executor) const {
     std::vector<std::vector<std::uint32_t>> starts(slabs_);
     executor(slabs_, [&](std::size_t slab) { fill_slab(level, slab, starts[slab]); });
-
     std::size_t before = 0;
     for (std::size_t slab = 0; slab < slabs_; ++slab) {
         if (before != 0) {
             const std::size_t first = slab * static_cast<std::size_t>(layers_) * strides_[slow_];
-            const std::size_t last = std::min(first + static_cast<std::size_t>(layers_) * strides_[slow_], level.bricks_.size());
-            for (std::size_t b = first; b < last; ++b) level.bricks_[b].first += static_cast<std::uint32_t>(before);
+            const std::size_t last = std::min(first + static_cast<std::size_t>(layers_) * strides_[slow_], level.nodes_.size());
+            for (std::size_t b = first; b < last; ++b) level.nodes_[b].first += static_cast<std::uint32_t>(before);
         }
         before += starts[slab].size();
     }
     level.starts_.reserve(before + 1);
     for (const auto& some : starts) level.starts_.insert(level.starts_.end(), some.begin(), some.end());
+}
+
+void LevelBuilder::build_sparse(Level& level) const {
+    // A cell's path through the tree, from the root: six bits for each layer under it.
+    struct Reference {
+        std::uint64_t path;
+        std::uint32_t box;
+        Cell cell;
+    };
+    std::vector<Reference> references;
+    references.reserve(references_);
+    for (std::uint32_t i = 0; i < boxes_.size(); ++i)
+        each_cell(cells_of(boxes_[i]), [&](const Cell& cell) {
+            std::uint64_t path = 0;
+            for (std::size_t k = 0; k < 3; ++k) path += static_cast<std::uint64_t>(cell[k] >> root_shift_) * strides_[k];
+            for (int shift = root_shift_ - 2; shift >= 0; shift -= 2)
+                path = path << 6 | static_cast<std::uint64_t>(
+                                       std::countr_zero(Level::bit_of({cell[0] >> shift, cell[1] >> shift, cell[2] >> shift})));
+            references.push_back({path, i, cell});
+        });
+    std::sort(references.begin(), references.end(),
+              [](const Reference& x, const Reference& y) { return std::tie(x.path, x.box) < std::tie(y.path, y.box); });
+    for (std::uint32_t r = 0; r < references.size(); ++r) {
+        level.boxes_[r] = pack(boxes_[references[r].box], references[r].cell);
+        level.ids_[r] = first_ + references[r].box;
+    }
+
+    // From the bricks up: those of a layer by their paths.
+    struct Branch {
+        std::uint64_t path;
+        Node node;
+    };
+    const auto join = [](std::vector<Branch>& branches, std::uint64_t path, std::size_t child) {
+        if (branches.empty() || branches.back().path != path >> 6) branches.push_back({path >> 6, {0, static_cast<std::uint32_t>(child), 0}});
+        branches.back().node.parts |= std::uint64_t{1} << (path & 63);
+    };
+    std::vector<std::vector<Branch>> layers(1);
+    for (std::size_t r = 0; r < references.size(); ++r) {
+        if (r > 0 && references[r].path == references[r - 1].path) continue;
+        join(layers[0], references[r].path, level.starts_.size());
+        level.starts_.push_back(static_cast<std::uint32_t>(r));
+    }
+    for (int shift = 2; shift < root_shift_; shift += 2) {
+        std::vector<Branch> above;
+        for (std::size_t i = 0; i < layers.back().size(); ++i) join(above, layers.back()[i].path, i);
+        layers.push_back(std::move(above));
+    }
+    // The last layer is the roots': its paths are their places, and it does not hold the empty ones.
+    for (const Branch& root : layers.back()) level.nodes_[root.path] = root.node;
+    for (std::size_t layer = layers.size() - 1; layer-- > 0;) {
+        const std::size_t before = level.nodes_.size();
+        // The nodes of the layer above were given places from 0 on.
+        const std::size_t above = layer + 2 == layers.size() ? 0 : before - layers[layer + 1].size();
+        for (std::size_t i = above; i < before; ++i) level.nodes_[i].first += static_cast<std::uint32_t>(before);
+        for (const Branch& branch : layers[layer]) level.nodes_.push_back(branch.node);
+    }
+    level.nodes_.shrink_to_fit();
+}
+
+Level LevelBuilder::build(const Executor& executor) {
+    Level level;
+    level.raster_ = raster_;
+    level.strides_ = strides_;
+    level.root_shift_ = root_shift_;
+    level.references_ = references_;
+    level.nodes_.resize(strides_[slow_] * static_cast<std::size_t>(roots_[slow_]));
+    level.boxes_ = std::make_unique_for_overwrite<PackedBox[]>(references_ + Level::k_beyond);
+    std::fill_n(level.boxes_.get() + references_, Level::k_beyond, 0);
+    level.ids_ = std::make_unique_for_overwrite<std::uint32_t[]>(references_);
+    if (root_shift_ == 2) {
+        sorted_.resize(slab_starts_.back());
+        std::vector<std::uint32_t> next(slab_starts_.begin(), slab_starts_.end() - 1);
+        for (std::size_t i = 0; i < boxes_.size(); ++i) {
+            const Cells cells = cells_of(boxes_[i]);
+            for (int slab = slab_of(cells.first[slow_]); slab <= slab_of(cells.last[slow_]); ++slab)
+                sorted_[next[static_cast<std::size_t>(slab)]++] = static_cast<std::uint32_t>(i);
+        }
+        build_dense(level, executor);
+    } else {
+        build_sparse(level);
+    }
     level.starts_.push_back(static_cast<std::uint32_t>(references_));
-    measure_empty_space(level, bricks_);
+    measure_empty_space(level);
     return level;
 }
 

@@ -1,4 +1,5 @@
-// How one level is filled: a counting sort by slabs of bricks, then by cells within each slab, so that writes stay close together.
+// How one level is filled. Even ones by a counting sort: by slabs of bricks, then by cells within each slab, so that writes stay close
+// together. Uneven ones, whose cells are too many to be counted one by one, by sorting what is listed.
 #pragma once
 
 #include <span>
@@ -17,8 +18,6 @@ class LevelBuilder {
     [[nodiscard]] std::size_t reference_count() const { return references_; }
     [[nodiscard]] Level build(const Executor& executor);
 
-    /// The directory's size in bytes for such a raster.
-    [[nodiscard]] static double directory_bytes(const Raster& raster);
 
   private:
     struct Cells {
@@ -27,17 +26,23 @@ class LevelBuilder {
     };
 
     [[nodiscard]] Cells cells_of(const Steps& box) const;
-    [[nodiscard]] int slab_of(int cell) const { return (cell >> 2) / layers_; }
+    [[nodiscard]] int slab_of(int cell) const { return (cell >> root_shift_) / layers_; }
     void sort_by_slab();
+    void place_roots();
+    void build_dense(Level& level, const Executor& executor) const;
+    void build_sparse(Level& level) const;
     void fill_slab(Level& level, std::size_t slab, std::vector<std::uint32_t>& starts) const;
-    static void measure_empty_space(Level& level, const std::array<int, 3>& bricks);
+    void measure_empty_space(Level& level) const;
+    template <class Visit>
+    void each_cell(const Cells& cells, Visit&& visit) const;
 
     const Raster raster_;
     const std::uint32_t first_;
     const std::span<const Steps> boxes_;
-    std::array<int, 3> bricks_{};
+    int root_shift_ = 2;
+    std::array<int, 3> roots_{};
     std::array<std::size_t, 3> strides_{};
-    std::size_t slow_ = 2;     ///< the axis with the most bricks: slabs are cut across it
+    std::size_t slow_ = 2;     ///< the axis with the most roots: slabs are cut across it
     int layers_ = 1;           ///< of bricks to a slab
     std::size_t slabs_ = 1;
     std::size_t references_ = 0;

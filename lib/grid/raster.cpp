@@ -16,6 +16,7 @@ Raster::Raster(const Box& box, double size) {
         scale_[k] = k_steps / half_cell;
         // The upper end of the box must lie within the last cell as step() computes it.
         while ((0.5 * box.high[k] - half_low_[k]) * scale_[k] >= cells_[k] * k_steps) ++cells_[k];
+        most_[k] = cells_[k] * k_steps;
     }
 }
 

@@ -34,22 +34,21 @@ class Raster {
     /// The edge of a cell along an axis; infinite for cells beyond the range of a double.
     [[nodiscard]] double size(std::size_t axis) const { return 2 * k_steps / scale_[axis]; }
 
+    [[nodiscard]] double half_size(std::size_t axis) const { return k_steps / scale_[axis]; }
     [[nodiscard]] double least_size() const { return std::min({size(0), size(1), size(2)}); }
 
-    /// Where a coordinate is, in cells, and not rounded to whole ones: may be far outside of the cells, or infinite.
-    [[nodiscard]] double place(std::size_t axis, double x) const {
-        // Halves, so that the difference of two huge numbers does not overflow.
-        return (0.5 * x - half_low_[axis]) * (scale_[axis] * (1.0 / k_steps));
-    }
+    /// Where a coordinate is, in steps, not rounded to whole ones: may be far outside of the cells, or infinite. `half`: half of the
+    /// coordinate, so that the difference of two huge ones does not overflow.
+    [[nodiscard]] double place(std::size_t axis, double half) const { return (half - half_low_[axis]) * scale_[axis]; }
+    /// The number of steps along an axis.
+    [[nodiscard]] double most(std::size_t axis) const { return most_[axis]; }
 
-    /// The step that a coordinate is in; -1 below all cells, the number of steps above them.
-    [[nodiscard]] int step(std::size_t axis, double x) const {
-        const double g = (0.5 * x - half_low_[axis]) * scale_[axis];
-        if (!(g >= 0)) return -1;
-        const int most = cells_[axis] * k_steps;
-        return g >= most ? most : static_cast<int>(g);
-    }
+    /// The steps that a box is in; -1 below all cells, the number of steps above them.
     [[nodiscard]] Steps steps(const Point& low, const Point& high) const {
+        const auto step = [&](std::size_t k, double x) {
+            const double g = place(k, 0.5 * x);
+            return g >= 0 ? static_cast<int>(std::min(g, most_[k])) : -1;
+        };
         return {{step(0, low[0]), step(1, low[1]), step(2, low[2])}, {step(0, high[0]), step(1, high[1]), step(2, high[2])}};
     }
     [[nodiscard]] bool outside(const Steps& box) const {
@@ -60,13 +59,14 @@ class Raster {
     /// The cell of a place in steps; the outermost one for a place outside.
     [[nodiscard]] std::array<int, 3> cell_of(const std::array<int, 3>& step) const {
         std::array<int, 3> cell{};
-        for (std::size_t k = 0; k < 3; ++k) cell[k] = std::min(std::max(step[k], 0) / k_steps, cells_[k] - 1);
+        for (std::size_t k = 0; k < 3; ++k) cell[k] = std::min(std::max(step[k], 0) >> k_step_bits, cells_[k] - 1);
         return cell;
     }
 
   private:
     Point half_low_ = {0, 0, 0};
     Point scale_ = {0, 0, 0};  ///< steps for each half unit
+    Point most_ = {k_steps, k_steps, k_steps};
     std::array<int, 3> cells_ = {1, 1, 1};
 };
 

@@ -2,8 +2,8 @@
 //
 // Short segments: every cell that their box shares a step with. Nothing is computed along the way, so nothing can be missed (raster.h).
 //
-// Long segments: cell by cell in the order of the segment (Amanatides and Woo 1987), striding over empty space by the distances kept
-// with empty bricks (Cohen and Sheffer 1994, "Proximity clouds"). Two margins make it certain: boxes are listed in every cell that they
+// Long segments: cell by cell in the order of the segment (Amanatides and Woo 1987), striding over empty space by the tree's empty parts and the distances kept
+// with empty roots (Cohen and Sheffer 1994, "Proximity clouds"). Two margins make it certain: boxes are listed in every cell that they
 // come within a step (1/128 of a cell) of, and what is asked of a cell is a step larger on all sides. Why they are enough:
 //
 // Let P(s) be the exact place of the segment's point at fraction s, in cells, for the raster's numbers as stored, and
@@ -13,14 +13,15 @@
 //   - The s at which L reaches a wall is computed with three roundings, each time from the start: a shift along L of less than 8u M.
 //     Places on L are computed to within 4u M.
 //   - An axis along which |d| < 2^-20 counts as constant, which is off by less than 2^-20.
-// The walk keeps to M < 2^36: everything together is less than 23 * 2^-52 * 2^36 + 2^-20 < 2^-10 cells, an eighth of a step. So at every fraction s at which it is in a region (a cell, or a block of empty bricks), P(s) is within 2^-9 cells of it, also where L has left
+// The walk is for M < 2^36 only: everything together is less than 23 * 2^-52 * 2^36 + 2^-20 < 2^-10 cells, an eighth of a step. So at every fraction s at which it is in a region (a cell, or a cube of empty ones), P(s) is within 2^-9 cells of it, also where L has left
 // the grid by less than that: the outermost cells reach further by `k_pad`. A box that holds P(s) is then listed in
 // that cell, or the region would not be empty; and shares a step with what is asked there.
 //
-// Longer segments: see clip().
+// Longer segments are not walked along: query/cells.h.
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -28,130 +29,235 @@
 
 namespace pierce::detail {
 
-/// The cells from `first` to `last`, in order of z, y, x, that hold something: `visitor(range, cull)`. Each box that shares a step with
-/// `box` is left by one of them only.
-template <class Visitor>
-void visit_block(const Level& level, const Steps& box, const Cell& first, const Cell& last, Visitor&& visitor) {
-    Cell cell{};
-    for (cell[2] = first[2]; cell[2] <= last[2]; ++cell[2])
-        for (cell[1] = first[1]; cell[1] <= last[1]; ++cell[1])
-            for (cell[0] = first[0]; cell[0] <= last[0]; ++cell[0]) {
-                const Brick& brick = level.brick_of(cell);
-                const std::uint64_t bit = Level::bit_of(cell);
-                if ((brick.cells & bit) == 0) continue;
-                Cull cull = cull_of(box, cell);
-                cull.seen = seen_before(cell, first);
-                visitor(level.range(level.number(brick, bit)), cull);
-            }
-}
+/// Where a query has come to: a cell that holds something, and which boxes it is to leave there.
+struct Stop {
+    const Level* level;
+    std::size_t number;   ///< of the cell, see Level::range
+    Cull cull;
+    double fraction;      ///< at which the segment enters the cell; 0 where that is not known
+};
+
+/// Which cells of a brick have one of some places along an axis, for each set of the four places.
+struct PlaceMasks {
+    constexpr PlaceMasks(int bits, std::uint64_t one) {
+        for (unsigned set = 0; set < 16; ++set)
+            for (int i = 0; i < 4; ++i)
+                if ((set >> i & 1) != 0) cells[set] |= one << (bits * i);
+    }
+    std::array<std::uint64_t, 16> cells{};
+};
+inline constexpr std::array<PlaceMasks, 3> k_place_masks = {PlaceMasks(1, 0x1111111111111111), PlaceMasks(4, 0x000f000f000f000f),
+                                                            PlaceMasks(16, 0x000000000000ffff)};
+
+/// `start`, then `next` until it says no: the cells from `first` to `last` that hold something. Each box that shares a step with `box` is
+/// left by one of them only.
+class BlockWalk {
+  public:
+    /// Finds the cells, and says how many there are; -1 if they lie in more than two bricks along an axis: then there is no walk.
+    int start(const Level& level, const Steps& box, const Cell& first, const Cell& last) {
+        level_ = &level;
+        box_ = box;
+        first_ = first;
+        parts_ = 0;
+        at_ = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            if ((last[k] >> 2) - (first[k] >> 2) > 1) return -1;
+        int found = 0;
+        Cell corner{};
+        for (corner[2] = first[2] & ~3; corner[2] <= last[2]; corner[2] += 4)
+            for (corner[1] = first[1] & ~3; corner[1] <= last[1]; corner[1] += 4)
+                for (corner[0] = first[0] & ~3; corner[0] <= last[0]; corner[0] += 4) {
+                    const Node* brick = level.find(corner).brick;
+                    if (brick == nullptr) continue;
+                    const auto bits = [&](std::size_t k) {
+                        const int low = std::max(first[k] - corner[k], 0);
+                        const int high = std::min(last[k] - corner[k], 3);
+                        return k_place_masks[k].cells[(2U << high) - (1U << low)];
+                    };
+                    const std::uint64_t cells = brick->parts & bits(0) & bits(1) & bits(2);
+                    if (cells == 0) continue;
+                    found += static_cast<int>(Level::count_bits(cells));
+                    part_[parts_++] = {brick, cells, corner};
+                }
+        return found;
+    }
+
+    bool next(Stop& stop) {
+        for (; at_ < parts_; ++at_) {
+            Part& part = part_[at_];
+            if (part.cells == 0) continue;
+            const std::uint64_t bit = part.cells & (~part.cells + 1);
+            part.cells ^= bit;
+            const int place = std::countr_zero(bit);
+            const Cell cell = {part.corner[0] + (place & 3), part.corner[1] + (place >> 2 & 3), part.corner[2] + (place >> 4)};
+            stop = {level_, Level::number(*part.brick, bit), cull_of(box_, cell), 0};
+            stop.cull.seen = seen_before(cell, first_);
+            return true;
+        }
+        return false;
+    }
+
+  private:
+    struct Part {
+        const Node* brick;
+        std::uint64_t cells;  ///< those of the block that hold something and are still to come
+        Cell corner;
+    };
+
+    const Level* level_;
+    Steps box_;
+    Cell first_;
+    unsigned parts_;
+    unsigned at_;
+    std::array<Part, 8> part_;
+};
+
+constexpr double k_pad = 0x1p-8;        ///< how far the outermost cells reach beyond the grid
+constexpr double k_flat = 0x1p-20;      ///< an axis along which a line goes less counts as constant
 
 /// A part of a segment, in cells of a level: the place at fraction s is `from + s * d`, for s in [first, last].
 struct Line {
     Point from;
     Point d;
-    double first;
-    double last;
+    double first = 0;
+    double last = 1;
+
+    /// A segment from its places in steps.
+    Line(const Point& start, const Point& end, const Raster& raster) {
+        bool inside = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            from[k] = start[k] * (1.0 / k_steps);
+            const double to = end[k] * (1.0 / k_steps);
+            d[k] = to - from[k];
+            inside = inside && std::min(from[k], to) >= 0 && std::max(from[k], to) <= raster.cells()[k];
+        }
+        if (inside) return;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (std::abs(d[k]) < k_flat) continue;
+            const double s0 = (-k_pad - from[k]) / d[k];
+            const double s1 = (raster.cells()[k] + k_pad - from[k]) / d[k];
+            first = std::max(first, std::min(s0, s1));
+            last = std::min(last, std::max(s0, s1));
+        }
+    }
+    [[nodiscard]] bool empty() const { return !(first <= last); }
 };
 
-constexpr double k_pad = 0x1p-8;
-constexpr double k_flat = 0x1p-20;
-constexpr double k_furthest = 0x1p36;
-
-/// The part of a segment that lies in the level's cells or within `k_pad` of them; `tame` says whether the walk may follow it.
-[[nodiscard]] inline Line clip(const Raster& raster, const Path& path, bool& tame) {
-    Line line{{}, {}, 0, 1};
-    double most = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        line.from[k] = raster.place(k, path.from[k]);
-        const double to = raster.place(k, path.to[k]);
-        line.d[k] = to - line.from[k];
-        most = std::max({most, std::abs(line.from[k]), std::abs(to)});
-    }
-    tame = most < k_furthest;
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (std::abs(line.d[k]) < k_flat) continue;
-        const double inverse = 1 / line.d[k];
-        const double s0 = (-k_pad - line.from[k]) * inverse;
-        const double s1 = (raster.cells()[k] + k_pad - line.from[k]) * inverse;
-        line.first = std::max(line.first, std::min(s0, s1));
-        line.last = std::min(line.last, std::max(s0, s1));
-    }
-    return line;
-}
-
-/// Calls `visitor(range, cull, s)` for the cells on a line that hold something, from its start to its end; s is the fraction at which the
-/// line enters the cell. When it is done with one and `limit()` lies before the next, it stops: all that it has not seen is beyond the
-/// limit. With `once`, `cull` leaves every box that the cells list exactly once; without, those near the line in each cell.
+/// `start`, then `next` until it says no: the cells on a line that hold something, from its start to its end. With `once`, the stops' culling leaves every box that the cells list
+/// exactly once; without, those near the line in each cell.
 ///
 /// Once: the cells go one way along each axis, so those that list a box follow one another, and it is enough to know the one before.
-template <class Limit, class Visitor>
-void walk(const Level& level, const Line& line, bool once, Limit&& limit, Visitor&& visitor) {
-    const Cell& cells = level.raster().cells();
-    constexpr double k_never = std::numeric_limits<double>::infinity();
-    Cell cell{};
-    Cell step{};        // -1, 0 or 1
-    Point inverse{};
-    Point at{};         // where the line is, in cells
-    double s = line.first;
-    const auto locate = [&](double fraction) {
-        for (std::size_t k = 0; k < 3; ++k) at[k] = line.from[k] + fraction * line.d[k];
-    };
-    Cull unseen = cull_none();
-    locate(s);
-    for (std::size_t k = 0; k < 3; ++k) {
-        cell[k] = std::clamp(static_cast<int>(at[k]), 0, cells[k] - 1);
-        if (std::abs(line.d[k]) < k_flat) continue;
-        step[k] = line.d[k] > 0 ? 1 : -1;
-        inverse[k] = 1 / line.d[k];
-    }
-    // The fraction at which the line leaves the cells from `low` to `high` along an axis.
-    const auto leaves = [&](std::size_t k, int low, int high) {
-        if (step[k] == 0) return k_never;
-        const double wall = step[k] > 0 ? (high + 1 >= cells[k] ? cells[k] + k_pad : high + 1) : (low <= 0 ? -k_pad : low);
-        return (wall - line.from[k]) * inverse[k];
-    };
-    for (;;) {
-        const Brick& brick = level.brick_of(cell);
-        const std::uint64_t bit = Level::bit_of(cell);
-        Cell low = cell;
-        Cell high = cell;
-        if (brick.empty != 0) {
-            const int reach = static_cast<int>(brick.empty) * 4 - 4;
-            for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = (cell[k] & ~3) - reach;
-                high[k] = (cell[k] | 3) + reach;
-            }
-        }
-        const Point out = {leaves(0, low[0], high[0]), leaves(1, low[1], high[1]), leaves(2, low[2], high[2])};
-        const std::size_t axis = out[0] < out[1] ? (out[0] < out[2] ? 0 : 2) : (out[1] < out[2] ? 1 : 2);
-        const double leave = std::min(out[axis], line.last);
-        const Point before = at;
-        locate(leave);
-        if ((brick.cells & bit) != 0 && once) {
-            visitor(level.range(level.number(brick, bit)), unseen, s);
-        } else if ((brick.cells & bit) != 0) {
-            Steps box{};
-            for (std::size_t k = 0; k < 3; ++k) {
-                // In steps of the cell, and never far from it: 2^10 makes the truncation a rounding down.
-                const double corner = cell[k];
-                box.low[k] = static_cast<int>((std::min(before[k], at[k]) - corner) * k_steps + 1023) - 1024;
-                box.high[k] = static_cast<int>((std::max(before[k], at[k]) - corner) * k_steps + 1025) - 1024;
-            }
-            visitor(level.range(level.number(brick, bit)), cull_of(box, {0, 0, 0}), s);
-        }
-        if (!(out[axis] < line.last) || limit() < leave) return;
-        s = leave;
-        const int next = step[axis] > 0 ? high[axis] + 1 : low[axis] - 1;
-        if (next < 0 || next >= cells[axis]) return;
+class LineWalk {
+  public:
+    void start(const Level& level, const Line& line, bool once) {
+        level_ = &level;
+        from_ = line.from;
+        d_ = line.d;
+        last_ = line.last;
+        once_ = once;
+        started_ = false;
+        unseen_ = cull_none();
         for (std::size_t k = 0; k < 3; ++k) {
-            if (step[k] == 0 || brick.empty == 0) continue;
-            const int place = static_cast<int>(at[k]);
-            cell[k] = step[k] > 0 ? std::clamp(place, cell[k], std::min(high[k], cells[k] - 1))
-                                  : std::clamp(place, std::max(low[k], 0), cell[k]);
+            cell_[k] = std::clamp(static_cast<int>(from_[k] + line.first * d_[k]), 0, cells(k) - 1);
+            step_[k] = std::abs(d_[k]) < k_flat ? 0 : d_[k] > 0 ? 1 : -1;
+            inverse_[k] = 1 / d_[k];
+            leave_[k] = leaves(k, cell_[k], cell_[k]);
         }
-        cell[axis] = next;
-        unseen = brick.empty == 0 ? cull_seen(axis, step[axis]) : cull_none();
+        enter_ = line.first;
     }
-}
+
+    /// Goes on to the next such cell. False when there is none, or when the line comes to it only beyond `limit`.
+    bool next(double limit, Stop& stop) {
+        for (;; started_ = true) {
+            if (started_) {
+                const std::size_t axis = leave_[0] < leave_[1] ? (leave_[0] < leave_[2] ? 0 : 2) : (leave_[1] < leave_[2] ? 1 : 2);
+                enter_ = leave_[axis];
+                if (!(enter_ < last_) || limit < enter_) return false;
+                if (!step(axis, cell_[axis])) return false;
+                unseen_ = cull_seen(axis, step_[axis]);
+            }
+            Level::Place place = level_->find(cell_);
+            for (; place.brick == nullptr; place = level_->find(cell_)) {
+                if (!stride(place, limit)) return false;
+                unseen_ = cull_none();
+            }
+            const std::uint64_t bit = Level::bit_of(cell_);
+            if ((place.brick->parts & bit) == 0) continue;
+            stop = {level_, Level::number(*place.brick, bit), once_ ? unseen_ : cull_here(), enter_};
+            started_ = true;
+            return true;
+        }
+    }
+
+  private:
+    [[nodiscard]] int cells(std::size_t k) const { return level_->raster().cells()[k]; }
+
+    // The fraction at which the line leaves the cells from `low` to `high` along an axis.
+    [[nodiscard]] double leaves(std::size_t k, int low, int high) const {
+        if (step_[k] == 0) return std::numeric_limits<double>::infinity();
+        const double wall = step_[k] > 0 ? (high + 1 >= cells(k) ? cells(k) + k_pad : high + 1) : (low <= 0 ? -k_pad : low);
+        return (wall - from_[k]) * inverse_[k];
+    }
+
+    // To the next cell along an axis, from `edge`; false when there is none.
+    bool step(std::size_t axis, int edge) {
+        const int next = edge + step_[axis];
+        if (next < 0 || next >= cells(axis)) return false;
+        cell_[axis] = next;
+        leave_[axis] = leaves(axis, next, next);
+        return true;
+    }
+
+    // Out of the empty cube around; false when the line ends in it or comes out beyond the limit.
+    bool stride(const Level::Place& cube, double limit) {
+        const int mask = (1 << cube.shift) - 1;
+        Cell low{};
+        Cell high{};
+        Point leave{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = (cell_[k] & ~mask) - cube.reach;
+            high[k] = (cell_[k] | mask) + cube.reach;
+            leave[k] = leaves(k, low[k], high[k]);
+        }
+        const std::size_t axis = leave[0] < leave[1] ? (leave[0] < leave[2] ? 0 : 2) : (leave[1] < leave[2] ? 1 : 2);
+        enter_ = leave[axis];
+        if (!(enter_ < last_) || limit < enter_) return false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (k == axis || step_[k] == 0) continue;
+            const int place = static_cast<int>(from_[k] + enter_ * d_[k]);
+            cell_[k] = step_[k] > 0 ? std::clamp(place, cell_[k], std::min(high[k], cells(k) - 1))
+                                    : std::clamp(place, std::max(low[k], 0), cell_[k]);
+            leave_[k] = leaves(k, cell_[k], cell_[k]);
+        }
+        return step(axis, step_[axis] > 0 ? high[axis] : low[axis]);
+    }
+
+    // What is near the line in this cell, and a step more. 2^10 makes the truncation a rounding down.
+    [[nodiscard]] Cull cull_here() const {
+        const double leave = std::min({leave_[0], leave_[1], leave_[2], last_});
+        Steps box{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double corner = cell_[k];
+            const double x = (from_[k] + enter_ * d_[k] - corner) * k_steps;
+            const double y = (from_[k] + leave * d_[k] - corner) * k_steps;
+            box.low[k] = static_cast<int>(std::min(x, y) + 1023) - 1024;
+            box.high[k] = static_cast<int>(std::max(x, y) + 1025) - 1024;
+        }
+        return cull_of(box, {0, 0, 0});
+    }
+
+    const Level* level_;
+    Point from_;
+    Point d_;
+    Point inverse_;
+    Point leave_;        ///< the fraction at which the line leaves the cell along each axis
+    double enter_;       ///< at which it has come into it
+    double last_;
+    bool once_;
+    bool started_;
+    Cell cell_;
+    Cell step_;          ///< -1, 0 or 1
+    Cull unseen_;
+};
 
 }  // namespace pierce::detail

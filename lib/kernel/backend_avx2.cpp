@@ -1,8 +1,8 @@
-// Eight triangles at once on AVX2 and FMA; compiled with flags of its own (lib/CMakeLists.txt), see wide.h.
+// Eight triangles at once on AVX2 and FMA; compiled with flags of its own (lib/CMakeLists.txt), see lanes.h.
 #include <immintrin.h>
 
 #include <kernel/backends.h>
-#include <kernel/wide.h>
+#include <kernel/lanes.h>
 
 namespace pierce::detail {
 

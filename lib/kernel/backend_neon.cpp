@@ -1,8 +1,8 @@
-// Four triangles at once on 64-bit Arm; see wide.h.
+// Four triangles at once on 64-bit Arm; see lanes.h.
 #include <arm_neon.h>
 
 #include <kernel/backends.h>
-#include <kernel/wide.h>
+#include <kernel/lanes.h>
 
 namespace pierce::detail {
 

@@ -1,6 +1,6 @@
-// One triangle at a time, for machines whose instruction set has no file of its own, and to compare the others with; see wide.h.
+// One triangle at a time, for machines whose instruction set has no file of its own, and to compare the others with; see lanes.h.
 #include <kernel/backends.h>
-#include <kernel/wide.h>
+#include <kernel/lanes.h>
 
 namespace pierce::detail {
 

@@ -1,8 +1,8 @@
-// Four triangles at once on what every x86-64 machine has; see wide.h.
+// Four triangles at once on what every x86-64 machine has; see lanes.h.
 #include <emmintrin.h>
 
 #include <kernel/backends.h>
-#include <kernel/wide.h>
+#include <kernel/lanes.h>
 
 namespace pierce::detail {
 

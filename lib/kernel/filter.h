@@ -9,7 +9,7 @@
 //   w_a = d . (b x c) and so on, s = w_a + w_b + w_c = d . n, v = a . (b x c) = n . a,   n = (b-a) x (c-a)
 //   the start's side is that of -v, the end's that of s - v; weights w / s; fraction v / s.
 //
-// The bounds are those derived in wide.h, for u = 2^-52 (any rounding mode), M the largest |component| of a, b, c and D that of d:
+// The bounds are those derived in lanes.h, for u = 2^-52 (any rounding mode), M the largest |component| of a, b, c and D that of d:
 //   |err w| <= 48u D M^2 =: e     |err v| <= 48u M^3 =: e_v     |err s| <= 170u D M^2 =: e_s     |err (v - s)| < 64u M^2 (M + 3 D) =: e_t
 // Underflow: with M and D in [2^-300, 2^300] each bound is at least 2^-948, and what a product of three loses among denormals is at most
 // 2^-1074 * 2^302. Outside of that range the answer is doubtful. So it is for NaN: each comparison is false for it.
@@ -105,7 +105,7 @@ struct Volumes64 {
 }
 
 /// The normal (b-a) x (c-a), computed, and a bound for the error of each component: with M the largest |component| of the two edges,
-/// 3u M^2 for each product and 2u M^2 for their difference, as in wide.h. `certain`: the bound holds.
+/// 3u M^2 for each product and 2u M^2 for their difference, as in lanes.h. `certain`: the bound holds.
 struct Normal {
     explicit Normal(const Corners& corners) {
         const Point p = Volumes64::relative(corners[1], corners[0]);

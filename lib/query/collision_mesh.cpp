@@ -1,10 +1,10 @@
 // The façade: what may be asked, in which arithmetic, and what is counted.
 #include <pierce/collision_mesh.h>
 
-#include <atomic>
 #include <cmath>
 #include <limits>
 
+#include <query/collision_mesh_impl.h>
 #include <query/engine.h>
 #include <query/environment.h>
 #include <query/mesh_report.h>
@@ -12,21 +12,6 @@
 namespace pierce {
 
 using namespace detail;
-
-template <class Scalar>
-struct CollisionMesh<Scalar>::Impl {
-    Scene<Scalar> scene;
-    mutable std::atomic<std::uint64_t> invalid_queries = 0;
-
-    // Whether a query has a meaning; one with a coordinate that is not finite is counted.
-    template <class... Points>
-    bool finite(const Points&... points) const {
-        const auto all = [](const auto& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); };
-        if ((all(points) && ...)) return true;
-        invalid_queries.fetch_add(1, std::memory_order_relaxed);
-        return false;
-    }
-};
 
 namespace {
 

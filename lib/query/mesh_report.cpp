@@ -191,16 +191,20 @@ class Reporter {
         }
         std::sort(vertices.begin(), vertices.end());
         vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        const Grid grid(std::span<const PlainBox<double>>(boxes), {0, 256 * boxes.size() + 4096}, {});
+        Grid grid(std::span<const PlainBox<double>>(boxes), {0, 256 * boxes.size() + 4096}, {});
+        const std::vector<std::uint32_t> order = grid.take_order();
         for (const std::uint32_t v : vertices) {
             bool found = false;
             for (const Level& level : grid.levels()) {
                 const Steps at = level.raster().steps(positions_[v], positions_[v]);
                 if (level.raster().outside(at)) continue;
                 const Cell cell = level.raster().cell_of(at.low);
-                visit_block(level, at, cell, cell, [&](const Range& range, const Cull&) {
-                    for (std::uint32_t i = range.begin; i < range.end && !found; ++i) found = lies_on(v, border_[*level.ids({i, i})]);
-                });
+                BlockWalk walk;
+                walk.start(level, at, cell, cell);
+                Stop stop;
+                if (!walk.next(stop)) continue;
+                const Range range = level.range(stop.number);
+                for (std::uint32_t i = range.begin; i < range.end && !found; ++i) found = lies_on(v, border_[order[*level.ids(i)]]);
             }
             if (found) note(report_.t_junctions, report_.t_junction_list, v);
         }

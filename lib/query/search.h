@@ -10,7 +10,16 @@ namespace pierce::detail {
 /// `complete`. So the verified point needs no second way through the grid.
 struct Shortlist {
     static constexpr unsigned k_most = 192;
-    std::array<std::uint32_t, k_most + 8> ids;
+
+    /// `covered`: the cells were asked for all that comes near a point of the path, rounded.
+    void add(const std::uint32_t* some, unsigned number, bool covered) {
+        complete = complete && covered && count + number <= k_most;
+        if (!complete) return;
+        std::copy_n(some, number, ids.begin() + count);
+        count += number;
+    }
+
+    std::array<std::uint32_t, k_most> ids;
     unsigned count = 0;
     bool complete = true;
 };

@@ -3,7 +3,7 @@
 
 #include <kernel/filter.h>
 #include <query/candidate.h>
-#include <query/search.h>
+#include <query/cells.h>
 
 namespace pierce::detail {
 
@@ -86,81 +86,7 @@ void test_triangles(const Search<Scalar>& search, const std::uint32_t* ids, unsi
     }
 }
 
-/// The triangles of one cell that the path's box there leaves: `use(ids, count)`, in parts.
-template <class Scalar, class Use>
-void cull_cell(const Scene<Scalar>& scene, const Level& level, const Range& range, const Cull& cull, Use&& use) {
-    std::array<std::uint32_t, 128 + 8> ids;
-    for (std::uint32_t begin = range.begin; begin < range.end; begin += 128) {
-        const Range part{begin, std::min(range.end, begin + 128)};
-        const unsigned count = scene.backend->cull(level.boxes(part), level.ids(part), part.end - part.begin, cull.above,
-                                                   cull.seen, ids.data());
-        if (count > 0) use(ids.data(), count);
-    }
-}
-
-/// A short segment's cells in one level: those of its box. More than this, and the walk visits fewer.
-constexpr int k_most_block = 8;
-
-struct Block {
-    Steps box;
-    Cell first;
-    Cell last;
-    int cells;  ///< how many; 0 if the box lies outside
-};
-
-[[nodiscard]] inline Block block_of(const Level& level, const Path& path) {
-    const Raster& raster = level.raster();
-    const Box box = box_of(path);
-    Block block{raster.steps(box.low, box.high), {}, {}, 0};
-    if (raster.outside(block.box)) return block;
-    block.first = raster.cell_of(block.box.low);
-    block.last = raster.cell_of(block.box.high);
-    double cells = 1;
-    for (std::size_t k = 0; k < 3; ++k) cells *= block.last[k] - block.first[k] + 1;
-    block.cells = static_cast<int>(std::min(cells, 1e6));
-    return block;
-}
-
-/// Calls `use(ids, count)` for the triangles whose boxes the path's comes near, in about its order; `limit()`, a fraction of the path, says how
-/// far they are of use. With `once`, no triangle comes twice.
-template <class Scalar, class Limit, class Use>
-void visit_near(Search<Scalar>& search, bool once, Limit&& limit, QueryCounters& counters, Shortlist* shortlist, Use&& use) {
-    const Scene<Scalar>& scene = search.scene;
-    for (const Level& level : scene.grid.levels()) {
-        const Block block = block_of(level, search.path);
-        if (block.cells == 0) continue;
-        const auto visit = [&](const Range& range, const Cull& cull) {
-            ++counters.cells;
-            cull_cell(scene, level, range, cull, [&](const std::uint32_t* ids, unsigned count) {
-                if (shortlist != nullptr) {
-                    if (shortlist->count + count > Shortlist::k_most) shortlist->complete = false;
-                    if (shortlist->complete) {
-                        std::copy_n(ids, count, shortlist->ids.begin() + shortlist->count);
-                        shortlist->count += count;
-                    }
-                }
-                use(ids, count);
-            });
-        };
-        bool tame = true;
-        if (block.cells > k_most_block) {
-            const Line line = clip(level.raster(), search.path, tame);
-            if (tame) {
-                if (!(line.first <= line.last) || limit() < line.first) continue;
-                // The shortlist has what comes near the path itself; a rounded point may leave it by less than half a step.
-                if (shortlist != nullptr && !(search.rounding * 4 * k_steps < level.raster().least_size())) shortlist->complete = false;
-                walk(level, line, once, limit, [&](const Range& range, const Cull& cull, double s) {
-                    if (search.is_far) search.move_to(s);
-                    visit(range, cull);
-                });
-                continue;
-            }
-        }
-        visit_block(level, block.box, block.first, block.last, visit);
-    }
-}
-
-/// Gives each triangle that the path hits under `options` to the collector. A collector has
+/// Gives the collector of a query each triangle that the path hits under `options`. A collector has
 ///   bool once                     whether a hit must not come twice
 ///   double limit()                hits beyond this fraction are of no use; negative: none is any more
 ///   bool wants(triangle)          whether to look at it at all
@@ -171,7 +97,8 @@ void traverse(Search<Scalar>& search, const QueryOptions& options, QueryCounters
               Shortlist* shortlist = nullptr) {
     search.probe.unit = Kernel::unit;
     const auto limit = [&] { return std::min(collector.limit(), options.max_fraction); };
-    visit_near(search, Collector::once, limit, counters, shortlist, [&](const std::uint32_t* ids, unsigned count) {
+    visit_near(search, Collector::once, limit, counters, [&](const std::uint32_t* ids, unsigned count, bool covered) {
+        if (shortlist != nullptr) shortlist->add(ids, count, covered);
         test_triangles<Kernel>(search, ids, count, options, counters, collector);
     });
 }

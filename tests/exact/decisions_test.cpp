@@ -26,7 +26,7 @@ void check(const Pair& pair, Sides sides, bool truth, Tally& tally) {
     ++tally.decisions;
     tally.hits += truth ? 1 : 0;
     if (detail::has_zero_area(pair.corners)) return;
-    const Filtered filtered = detail::filter(detail::prepare(pair.corners), pair.path, sides);
+    const Filtered filtered = detail::filter(pair.corners, pair.path, sides);
     if (filtered.verdict == Verdict::doubtful) return;
     ++tally.certain;
     ASSERT_EQ(filtered.verdict == Verdict::hit, truth) << "the filter was certain: " << describe(pair);

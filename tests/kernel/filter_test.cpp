@@ -28,7 +28,6 @@ void judge(Family family, int power, double offset, Random& random, GmpOracle& o
     for (Point* p : {&pair.path.from, &pair.path.to, &pair.corners[0], &pair.corners[1], &pair.corners[2]})
         for (double& x : *p) x = static_cast<double>(static_cast<Scalar>(std::ldexp(x, power)));
     if (has_zero_area(pair.corners)) return;
-    const PreparedTriangle prepared = prepare(pair.corners);
     const Point from = pair.path.from;
     const Point to = pair.path.to;
     const std::array<Path, 4> paths = {Path{from, to}, {to, from}, {from, pair.corners[random.below(3)]},
@@ -46,7 +45,7 @@ void judge(Family family, int power, double offset, Random& random, GmpOracle& o
         };
         const Decision decision = decide(pair.path, pair.corners, Sides::both);
         compare("the exact room", decision.hit, decision.side);
-        const Filtered filtered = filter(prepared, pair.path, Sides::both);
+        const Filtered filtered = filter(pair.corners, pair.path, Sides::both);
         if (filtered.verdict == Verdict::doubtful) continue;
         ++certain;
         compare("the filter", filtered.verdict == Verdict::hit, filtered.side);
@@ -98,8 +97,7 @@ TEST(FilterSoak, is_never_wrong_in_a_hundred_million) { run_both(50'000'000); }
 
 TEST(Filter, is_in_doubt_on_edges_planes_and_beyond_its_range) {
     const Corners corners = {Point{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
-    const PreparedTriangle prepared = prepare(corners);
-    const auto verdict = [&](const Point& from, const Point& to) { return filter(prepared, {from, to}, Sides::front).verdict; };
+    const auto verdict = [&](const Point& from, const Point& to) { return filter(corners, {from, to}, Sides::front).verdict; };
     EXPECT_EQ(verdict({1, 1, 1}, {1, 1, -1}), Verdict::hit);
     EXPECT_EQ(verdict({5, 5, 1}, {5, 5, -1}), Verdict::miss);
     EXPECT_EQ(verdict({1, 1, 2}, {1, 1, 1}), Verdict::miss);

@@ -118,9 +118,8 @@ TEST(Contract, ties_go_to_the_smallest_face) {
     TriangleSoup<double> soup{{V(0, 0, 0), V(1, 0, 0), V(0, 1, 0), V(-1, 0, 0), V(0, -1, 0)},
                               {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {0, 2, 3}},
                               {40, 30, 20, 10, 5}};
-    for (const std::size_t cells : {1U, 2U, 7U}) {
-        const auto n = static_cast<std::uint32_t>(cells);
-        const CollisionMesh<double> mesh(soup.view(), {.grid_cells = {n, n, n}});
+    for (const double cell : {1e300, 1.0, 0.25}) {
+        const CollisionMesh<double> mesh(soup.view(), {.cell_size = cell});
         const auto face_at = [&](double x, double y) {
             const auto hit = mesh.first_hit({V(x, y, 1), V(x, y, -1)});
             return hit ? static_cast<int>(hit->face) : -1;

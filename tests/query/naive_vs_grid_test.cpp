@@ -67,8 +67,8 @@ TEST(NaiveVsGrid, terrain_and_shards) {
 
 TEST(NaiveVsGrid, any_resolution_gives_the_same_bits) {
     const auto soup = moved<float>(polycube(4, 0.5, 2, 7), 0.1, k_nowhere);
-    for (const auto& cells : {std::array<std::uint32_t, 3>{1, 1, 1}, {2, 3, 1}, {7, 7, 7}, {64, 1, 5}, {40, 41, 42}})
-        compare("grid", soup, 1500, 41, {.grid_cells = cells, .max_grid_bytes = std::size_t{1} << 24});
+    for (const double cell : {1e-3, 0.01, 0.03, 0.1, 0.25, 1e300})
+        compare("grid", soup, 1500, 41, {.cell_size = cell, .max_grid_bytes = std::size_t{1} << 24});
 }
 
 }  // namespace

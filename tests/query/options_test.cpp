@@ -117,7 +117,7 @@ TEST(Explain, gives_each_face_its_reason) {
     const auto aside = add(V(1.5, 0, 1), V(5, 0, 1), V(5, 4, 1));
     const auto upright = add(V(1, 0, -2), V(1, 4, -2), V(1, 0, 4));  // the segment lies in its plane
     const auto line = add(V(1, 1, 0), V(1, 1, 1), V(1, 1, 2));
-    const CollisionMesh<double> mesh(soup.view(), {.grid_cells = {1, 1, 1}});
+    const CollisionMesh<double> mesh(soup.view(), {.cell_size = 1e300});
     std::vector<std::uint8_t> mask(soup.triangles.size(), 1);
     mask[masked_face] = 0;
     const auto accept = [&](const Contact& contact) { return contact.face != refused; };

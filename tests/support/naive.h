@@ -103,8 +103,8 @@ class NaiveMesh {
     [[nodiscard]] Hit<Scalar> reported(const detail::Path& path, const std::vector<Found>& found, std::size_t i,
                                        const QueryOptions& options) const {
         const std::uint32_t triangle = found[i].triangle;
-        const detail::PreparedTriangle prepared = detail::prepare(corners_[triangle]);
-        Hit<Scalar> hit = detail::report<Scalar>(path, corners_[triangle], prepared, found[i].decision, faces_[triangle],
+        const detail::Point normal = detail::normal_of<Scalar>(corners_[triangle]);
+        Hit<Scalar> hit = detail::report<Scalar>(path, corners_[triangle], normal, found[i].decision, faces_[triangle],
                                                  triangle);
         QueryOptions whole = options;
         whole.max_fraction = 1;
@@ -118,7 +118,7 @@ class NaiveMesh {
             return true;
         };
         const auto side = [&](const detail::Point& point) { return detail::side_of(corners_[triangle], point); };
-        detail::verify(hit, path, prepared.normal, side, clear);
+        detail::verify(hit, path, normal, side, clear);
         return hit;
     }
 

@@ -1,0 +1,157 @@
+// The façade of batches: parts for the executor, each in standard arithmetic.
+#include <stdexcept>
+
+#include <query/collision_mesh_impl.h>
+#include <query/engine.h>
+#include <query/environment.h>
+
+namespace pierce {
+
+using namespace detail;
+
+namespace {
+
+// Large enough for the queries under way to be many at almost all times, small enough to be shared evenly.
+constexpr std::size_t k_part = 1024;
+
+void add(QueryCounters& to, const QueryCounters& from) {
+    const auto atomic_add = [](std::uint64_t& x, std::uint64_t y) { std::atomic_ref(x).fetch_add(y, std::memory_order_relaxed); };
+    atomic_add(to.queries, from.queries);
+    atomic_add(to.cells, from.cells);
+    atomic_add(to.triangles, from.triangles);
+    atomic_add(to.exact_decisions, from.exact_decisions);
+    atomic_add(to.exact_orders, from.exact_orders);
+    atomic_add(to.retreats, from.retreats);
+}
+
+/// Calls `part(first, last, counters, invalid)`, which returns its number of hits, for all parts of `count` queries.
+template <class Part>
+std::size_t in_parts(std::size_t count, const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries, Part&& part) {
+    std::atomic<std::size_t> hits = 0;
+    options.executor((count + k_part - 1) / k_part, [&](std::size_t i) {
+        const std::size_t first = i * k_part;
+        const std::size_t last = std::min(count, first + k_part);
+        QueryCounters counters;
+        counters.queries = last - first;
+        std::size_t invalid = 0;
+        const StandardArithmetic standard;
+        hits.fetch_add(part(first, last, counters, invalid), std::memory_order_relaxed);
+        if (invalid > 0) invalid_queries.fetch_add(invalid, std::memory_order_relaxed);
+        if (options.counters != nullptr) add(*options.counters, counters);
+    });
+    return hits;
+}
+
+void check_sizes(std::size_t from, std::size_t to, std::size_t out) {
+    if (from != to || from != out)
+        throw std::invalid_argument("a batch of " + std::to_string(from) + " starts, " + std::to_string(to) + " ends and " +
+                                    std::to_string(out) + " answers: they must be as many");
+}
+
+template <class Scalar, class Answer>
+std::size_t all_first(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::span<std::optional<Answer>> out,
+                      const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries) {
+    if (!(options.max_fraction >= 0)) {
+        std::fill(out.begin(), out.end(), std::nullopt);
+        return 0;
+    }
+    return in_parts(out.size(), options, invalid_queries,
+                    [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
+                        return detail::first_hits(scene, ends, first, last, out.data(), options, counters, invalid);
+                    });
+}
+
+template <class Scalar>
+std::size_t all_any(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::span<std::uint8_t> out, const BatchOptions& options,
+                    std::atomic<std::uint64_t>& invalid_queries) {
+    if (!(options.max_fraction >= 0)) {
+        std::fill(out.begin(), out.end(), std::uint8_t{0});
+        return 0;
+    }
+    return in_parts(out.size(), options, invalid_queries,
+                    [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
+                        return detail::any_hits(scene, ends, first, last, out.data(), options, counters, invalid);
+                    });
+}
+
+template <class Scalar>
+Ends<Scalar> ends_of(std::span<const Segment<Scalar>> segments) {
+    static_assert(sizeof(Segment<Scalar>) == 6 * sizeof(Scalar));
+    if (segments.empty()) return {};
+    return {segments[0].from.data(), segments[0].to.data(), 6, 6};
+}
+
+template <class Scalar>
+Ends<Scalar> ends_of(const Points<Scalar>& from, const Points<Scalar>& to) {
+    return {from.data(), to.data(), from.outerStride(), to.outerStride()};
+}
+
+std::size_t columns(const auto& points) { return static_cast<std::size_t>(points.cols()); }
+
+}  // namespace
+
+template <class Scalar>
+std::size_t CollisionMesh<Scalar>::first_hits(std::span<const Segment<Scalar>> segments, std::span<std::optional<Hit<Scalar>>> out,
+                                              const BatchOptions& options) const {
+    check_sizes(segments.size(), segments.size(), out.size());
+    return all_first(impl_->scene, ends_of(segments), out, options, impl_->invalid_queries);
+}
+
+template <class Scalar>
+std::size_t CollisionMesh<Scalar>::any_hits(std::span<const Segment<Scalar>> segments, std::span<std::uint8_t> out,
+                                            const BatchOptions& options) const {
+    check_sizes(segments.size(), segments.size(), out.size());
+    return all_any(impl_->scene, ends_of(segments), out, options, impl_->invalid_queries);
+}
+
+template <class Scalar>
+std::size_t CollisionMesh<Scalar>::sweep_points(std::span<const Vec3<Scalar>> from, std::span<const Vec3<Scalar>> to,
+                                                std::span<std::optional<SweepHit<Scalar>>> out, const BatchOptions& options) const {
+    check_sizes(from.size(), to.size(), out.size());
+    static_assert(sizeof(Vec3<Scalar>) == 3 * sizeof(Scalar));
+    if (out.empty()) return 0;
+    return all_first(impl_->scene, Ends<Scalar>{from[0].data(), to[0].data(), 3, 3}, out, options, impl_->invalid_queries);
+}
+
+template <class Scalar>
+std::size_t CollisionMesh<Scalar>::first_hits(const Points<Scalar>& from, const Points<Scalar>& to,
+                                              std::span<std::optional<Hit<Scalar>>> out, const BatchOptions& options) const {
+    check_sizes(columns(from), columns(to), out.size());
+    return all_first(impl_->scene, ends_of<Scalar>(from, to), out, options, impl_->invalid_queries);
+}
+
+template <class Scalar>
+std::size_t CollisionMesh<Scalar>::any_hits(const Points<Scalar>& from, const Points<Scalar>& to, std::span<std::uint8_t> out,
+                                            const BatchOptions& options) const {
+    check_sizes(columns(from), columns(to), out.size());
+    return all_any(impl_->scene, ends_of<Scalar>(from, to), out, options, impl_->invalid_queries);
+}
+
+template <class Scalar>
+std::size_t CollisionMesh<Scalar>::sweep_points(const Points<Scalar>& from, const Points<Scalar>& to,
+                                                std::span<std::optional<SweepHit<Scalar>>> out, const BatchOptions& options) const {
+    check_sizes(columns(from), columns(to), out.size());
+    return all_first(impl_->scene, ends_of<Scalar>(from, to), out, options, impl_->invalid_queries);
+}
+
+template std::size_t CollisionMesh<float>::first_hits(std::span<const Segment<float>>, std::span<std::optional<Hit<float>>>, const BatchOptions&) const;
+template std::size_t CollisionMesh<float>::any_hits(std::span<const Segment<float>>, std::span<std::uint8_t>, const BatchOptions&) const;
+template std::size_t CollisionMesh<float>::sweep_points(std::span<const Vec3<float>>, std::span<const Vec3<float>>,
+        std::span<std::optional<SweepHit<float>>>, const BatchOptions&) const;
+template std::size_t CollisionMesh<float>::first_hits(const Points<float>&, const Points<float>&, std::span<std::optional<Hit<float>>>,
+        const BatchOptions&) const;
+template std::size_t CollisionMesh<float>::any_hits(const Points<float>&, const Points<float>&, std::span<std::uint8_t>, const BatchOptions&) const;
+template std::size_t CollisionMesh<float>::sweep_points(const Points<float>&, const Points<float>&, std::span<std::optional<SweepHit<float>>>,
+        const BatchOptions&) const;
+
+template std::size_t CollisionMesh<double>::first_hits(std::span<const Segment<double>>, std::span<std::optional<Hit<double>>>, const BatchOptions&) const;
+template std::size_t CollisionMesh<double>::any_hits(std::span<const Segment<double>>, std::span<std::uint8_t>, const BatchOptions&) const;
+template std::size_t CollisionMesh<double>::sweep_points(std::span<const Vec3<double>>, std::span<const Vec3<double>>,
+        std::span<std::optional<SweepHit<double>>>, const BatchOptions&) const;
+template std::size_t CollisionMesh<double>::first_hits(const Points<double>&, const Points<double>&, std::span<std::optional<Hit<double>>>,
+        const BatchOptions&) const;
+template std::size_t CollisionMesh<double>::any_hits(const Points<double>&, const Points<double>&, std::span<std::uint8_t>, const BatchOptions&) const;
+template std::size_t CollisionMesh<double>::sweep_points(const Points<double>&, const Points<double>&, std::span<std::optional<SweepHit<double>>>,
+        const BatchOptions&) const;
+
+}  // namespace pierce
