@@ -44,7 +44,7 @@ struct Wide {
     Vector values{};
 
     Wide() = default;
-    explicit Wide(Vector v) : values(v) {}
+    explicit Wide(const Vector& v) : values(v) {}
     /// The same in all lanes.
     template <class Value>
         requires std::is_arithmetic_v<Value>

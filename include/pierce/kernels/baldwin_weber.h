@@ -16,8 +16,10 @@
 // applies ours to the corners.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include <pierce/kernels/concept.h>
 

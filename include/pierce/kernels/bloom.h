@@ -11,6 +11,8 @@
 // c (plane through ab) and a (plane through bc); b's, which is u here, is what is left.
 #pragma once
 
+#include <cmath>
+
 #include <pierce/kernels/concept.h>
 
 namespace pierce::kernels {

@@ -51,7 +51,9 @@ struct Watertight {
         const Triple<Number> way = to - from;
         const auto magnitude = [&zero](const Number& x) { return select(x < zero, -x, x); };
         const Triple<Number> size = {magnitude(way[0]), magnitude(way[1]), magnitude(way[2])};
-        const Mask<Number> x_is_z = (size[0] >= size[1]) & (size[0] >= size[2]);
+        const Mask<Number> x_beats_y = size[0] >= size[1];
+        const Mask<Number> x_beats_z = size[0] >= size[2];
+        const Mask<Number> x_is_z = x_beats_y & x_beats_z;
         const Mask<Number> y_is_z = size[1] >= size[2];
         const auto turned = [&](const Triple<Number>& p) -> Triple<Number> {
             const auto pick = [&](std::size_t i, std::size_t j, std::size_t k) { return select(x_is_z, p[i], select(y_is_z, p[j], p[k])); };
