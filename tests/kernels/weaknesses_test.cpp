@@ -149,6 +149,23 @@ TEST(KernelWeaknesses, OnlyWatertightAndExactHaveNoCracksAtSharedEdges) {
     }
 }
 
+// A segment down the z axis, and an edge that passes it at a distance of 2^-47: both products of its edge function are 1 in float.
+TEST(KernelWeaknesses, WatertightLooksAgainAtEdgeFunctionsThatRoundToZero) {
+    const float e = 0x1p-23F;
+    const Vec3<float> p(1, 1 - e, 0);
+    const Vec3<float> q(-1 - e, -1, 0);
+    const auto compare = [](const auto& t, bool hit) {
+        using V = std::remove_cvref_t<decltype(t[0])>;
+        EXPECT_EQ(tested(kernels::exact, t, V(0, 0, 1), V(0, 0, -1)).has_value(), hit);
+        EXPECT_EQ(tested(kernels::watertight, t, V(0, 0, 1), V(0, 0, -1)).has_value(), hit);
+    };
+    compare(std::array{Vec3<float>(2, -2, 0), p, q}, false);
+    compare(std::array{Vec3<float>(-2, 2, 0), q, p}, true);
+    const double d = 0x1p-52;
+    compare(std::array{D(2, -2, 0), D(1, 1 - d, 0), D(-1 - d, -1, 0)}, false);
+    compare(std::array{D(-2, 2, 0), D(-1 - d, -1, 0), D(1, 1 - d, 0)}, true);
+}
+
 TEST(KernelWeaknesses, SidesAreWhatTheParameterSays) {
     const std::array<D, 3> t = {D{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const D above(0.25, 0.25, 1);

@@ -1,6 +1,6 @@
 // Barnes' test: all triangles around a corner at once, by changes of basis from each to the next.
 //
-// Source: Barnes 2011, "Fast, Branchless Ray/Triangle Fan Intersection" (tavianator.com). The triangles are A R0 R1, A R1 R2, ... In the basis of
+// Source: Barnes 2014, "A Beautiful Ray/Mesh Intersection Algorithm" (tavianator.com). The triangles are A R0 R1, A R1 R2, ... In the basis of
 // the first, p = A + u AB + v AC + w N, with B = R0, C = R1, N = AB x AC. Our derivation of the step to the next, A C D, where
 // p = A + u' AC + v' AD + w' N' with N' = AC x AD: the origins agree, and AC is the first vector of the new basis. The other two are
 //   AB = a AC + b AD + c N'     N = d AC + e AD + f N'
