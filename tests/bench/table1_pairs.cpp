@@ -28,7 +28,8 @@ Pair make_pair(bool hit, Misses misses, Random& random) {
     }
     if ((t[1] - t[0])[0] * ((t[2] - t[0])[1] * (pair.from - t[0])[2] - (t[2] - t[0])[2] * (pair.from - t[0])[1]) -
             (t[1] - t[0])[1] * ((t[2] - t[0])[0] * (pair.from - t[0])[2] - (t[2] - t[0])[2] * (pair.from - t[0])[0]) +
-            (t[1] - t[0])[2] * ((t[2] - t[0])[0] * (pair.from - t[0])[1] - (t[2] - t[0])[1] * (pair.from - t[0])[0]) < 0) {
+            (t[1] - t[0])[2] * ((t[2] - t[0])[0] * (pair.from - t[0])[1] - (t[2] - t[0])[1] * (pair.from - t[0])[0]) <
+        0) {
         std::swap(t[1], t[2]);
         std::swap(w[1], w[2]);
     }
@@ -51,7 +52,8 @@ Pairs make_pairs(std::size_t count, double hit_rate, Misses misses) {
         const bool hit = random.below(count - pairs.size()) < left;
         for (;;) {
             const Pair pair = make_pair(hit, misses, random);
-            const std::array<Vec3<float>, 3> t = {pair.triangle[0].cast<float>(), pair.triangle[1].cast<float>(), pair.triangle[2].cast<float>()};
+            const std::array<Vec3<float>, 3> t = {pair.triangle[0].cast<float>(), pair.triangle[1].cast<float>(),
+                                                  pair.triangle[2].cast<float>()};
             const Vec3<float> from = pair.from.cast<float>();
             const Vec3<float> to = pair.to.cast<float>();
             if (kernels::exact.test(kernels::exact.prepare(t[0], t[1], t[2]), from, to).has_value() != hit) continue;

@@ -21,7 +21,8 @@ struct Dummy {
     Stored<Scalar> prepare(const Vec3<Scalar>& a, const Vec3<Scalar>& b, const Vec3<Scalar>& c) const {
         return EmbreeStyle{}.prepare(a, b, c);
     }
-    kernels::Tested<float> evaluate(const Forms& t, const kernels::Triple<float>& from, const kernels::Triple<float>& to) const {
+    kernels::Tested<float> evaluate(const Forms& t, const kernels::Triple<float>& from,
+                                    const kernels::Triple<float>& to) const {
         const float sum = (t.a[0] + t.e1[1]) + (t.normal[2] + (from[0] + to[2]));
         return {sum > 1e30F};
     }
@@ -36,24 +37,27 @@ float computed(Straight x) {
 }
 
 /// x or 0, by bits: compilers make a branch of the conditional operator.
-float where(bool hit, float x) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & (0U - static_cast<unsigned>(hit))); }
+float where(bool hit, float x) {
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & (0U - static_cast<unsigned>(hit)));
+}
 
 /// A kernel as it is, or without its early-outs.
 template <class Kernel>
 struct Plain {
     Kernel kernel;
-    auto operator()(const typename Kernel::template Stored<float>& t, const kernels::Triple<float>& from, const kernels::Triple<float>& to) const {
+    auto operator()(const typename Kernel::template Stored<float>& t, const kernels::Triple<float>& from,
+                    const kernels::Triple<float>& to) const {
         return kernel.evaluate(t, from, to);
     }
 };
 template <class Kernel>
 struct InOneGo {
     Kernel kernel;
-    kernels::Tested<float> operator()(const typename Kernel::template Stored<float>& t, const kernels::Triple<float>& from,
-                                      const kernels::Triple<float>& to) const {
+    kernels::Tested<float> operator()(const typename Kernel::template Stored<float>& t,
+                                      const kernels::Triple<float>& from, const kernels::Triple<float>& to) const {
         using Ends = kernels::Triple<Straight>;
-        const auto tested = kernel.evaluate(std::bit_cast<typename Kernel::template Stored<Straight>>(t), std::bit_cast<Ends>(from),
-                                            std::bit_cast<Ends>(to));
+        const auto tested = kernel.evaluate(std::bit_cast<typename Kernel::template Stored<Straight>>(t),
+                                            std::bit_cast<Ends>(from), std::bit_cast<Ends>(to));
         return {tested.hit.value, computed(tested.fraction), computed(tested.u), computed(tested.v)};
     }
 };
@@ -87,9 +91,11 @@ struct OneTriangleFan {
     Stored<Scalar> prepare(const Vec3<Scalar>& a, const Vec3<Scalar>& b, const Vec3<Scalar>& c) const {
         return kernels::triangle_fan.prepare(a, b, c).first;
     }
-    kernels::Tested<float> evaluate(const Stored<float>& first, const kernels::Triple<float>& from, const kernels::Triple<float>& to) const {
+    kernels::Tested<float> evaluate(const Stored<float>& first, const kernels::Triple<float>& from,
+                                    const kernels::Triple<float>& to) const {
         const auto answer = kernels::triangle_fan.evaluate<float>(first, {}, from, to);
-        return answer ? kernels::Tested<float>{true, answer->fraction, answer->u, answer->v} : kernels::Tested<float>{false};
+        return answer ? kernels::Tested<float>{true, answer->fraction, answer->u, answer->v}
+                      : kernels::Tested<float>{false};
     }
 };
 

@@ -35,8 +35,9 @@ struct Tally {
 };
 
 template <class Kernel, class Scalar>
-void judge(const char* name, const Kernel& kernel, const std::array<Vec3<Scalar>, 3>& t, const Vec3<Scalar>& from, const Vec3<Scalar>& to,
-           const std::optional<kernels::Answer<Scalar>>& truth, const Margins& m, Tally& tally) {
+void judge(const char* name, const Kernel& kernel, const std::array<Vec3<Scalar>, 3>& t, const Vec3<Scalar>& from,
+           const Vec3<Scalar>& to, const std::optional<kernels::Answer<Scalar>>& truth, const Margins& m,
+           Tally& tally) {
     const auto answer = tested(kernel, t, from, to);
     const long double u = std::numeric_limits<Scalar>::epsilon() / 2;
     const long double height_band = k_roundings * u * (k_is_local<Kernel> ? m.local : m.far) * m.aspect;
@@ -45,7 +46,8 @@ void judge(const char* name, const Kernel& kernel, const std::array<Vec3<Scalar>
     tally.hits += truth ? 1 : 0;
     long double used = 0;
     if (answer && truth) {
-        used = std::max({std::abs(answer->fraction - m.fraction) * m.length / shift, std::abs(answer->u - m.weight[1]) * m.altitude / shift,
+        used = std::max({std::abs(answer->fraction - m.fraction) * m.length / shift,
+                         std::abs(answer->u - m.weight[1]) * m.altitude / shift,
                          std::abs(answer->v - m.weight[2]) * m.altitude / shift});
         EXPECT_TRUE(answer->fraction >= 0 && answer->fraction <= 1) << name;
     } else if (answer || truth) {
@@ -59,14 +61,16 @@ void judge(const char* name, const Kernel& kernel, const std::array<Vec3<Scalar>
         used = truth ? least : -least;
     }
     tally.largest = std::max(tally.largest, used);
-    EXPECT_LE(used, 1) << name << (truth ? ": hit" : ": miss") << " taken for the other, or values off; " << describe({{detail::to_point(from), detail::to_point(to)},
-        {detail::to_point(t[0]), detail::to_point(t[1]), detail::to_point(t[2])}});
+    EXPECT_LE(used, 1) << name << (truth ? ": hit" : ": miss") << " taken for the other, or values off; "
+                       << describe({{detail::to_point(from), detail::to_point(to)},
+                                    {detail::to_point(t[0]), detail::to_point(t[1]), detail::to_point(t[2])}});
 }
 
 /// Triangles of all shapes in the unit cube; seven in ten segments aimed from the front at a point of the triangle, or of its edge bc; the
 /// others anywhere.
 template <class Scalar>
-void pairs_at(double scale, double offset, bool at_edges, int count, std::map<std::string, Tally>& tallies, std::uint64_t seed) {
+void pairs_at(double scale, double offset, bool at_edges, int count, std::map<std::string, Tally>& tallies,
+              std::uint64_t seed) {
     Random random(seed);
     for (int i = 0; i < count; ++i) {
         std::array<Vec3<double>, 3> p = {random.in_cube(), random.in_cube(), random.in_cube()};
@@ -80,13 +84,16 @@ void pairs_at(double scale, double offset, bool at_edges, int count, std::map<st
             if ((p[1] - p[0]).cross(p[2] - p[0]).dot(from - p[0]) < 0) std::swap(p[1], p[2]);
         }
         const Vec3<double> shift = offset * random.direction();
-        const auto placed = [&](const Vec3<double>& x) -> Vec3<Scalar> { return (scale * (x + shift)).template cast<Scalar>(); };
+        const auto placed = [&](const Vec3<double>& x) -> Vec3<Scalar> {
+            return (scale * (x + shift)).template cast<Scalar>();
+        };
         const std::array<Vec3<Scalar>, 3> t = {placed(p[0]), placed(p[1]), placed(p[2])};
         const Vec3<Scalar> a = placed(from);
         const Vec3<Scalar> b = placed(to);
         const auto truth = tested(kernels::exact, t, a, b);
         const Margins margins(t, a, b);
-        for_each_kernel([&](const char* name, const auto& kernel) { judge(name, kernel, t, a, b, truth, margins, tallies[name]); });
+        for_each_kernel(
+            [&](const char* name, const auto& kernel) { judge(name, kernel, t, a, b, truth, margins, tallies[name]); });
     }
 }
 
@@ -100,13 +107,17 @@ void run() {
         bool at_edges = false;
     };
     std::uint64_t seed = 0;
-    for (const Placement& place : {Placement{"origin", 1, 0}, {"offset", 1, 100}, {"large", 0x1p20, 0}, {"small", 0x1p-20, 0}, {"edges", 1, 100, true}}) {
+    for (const Placement& place : {Placement{"origin", 1, 0},
+                                   {"offset", 1, 100},
+                                   {"large", 0x1p20, 0},
+                                   {"small", 0x1p-20, 0},
+                                   {"edges", 1, 100, true}}) {
         std::map<std::string, Tally> tallies;
         pairs_at<Scalar>(place.scale, place.offset, place.at_edges, 260'000, tallies, ++seed);
         for (const auto& [name, tally] : tallies) {
-            std::printf("%-6s %-7s %-17s %lld pairs, %lld hits, %lld different, largest error %.3Lf of the band\n", type, place.name, name.c_str(),
-                        static_cast<long long>(tally.pairs), static_cast<long long>(tally.hits), static_cast<long long>(tally.different),
-                        tally.largest);
+            std::printf("%-6s %-7s %-17s %lld pairs, %lld hits, %lld different, largest error %.3Lf of the band\n",
+                        type, place.name, name.c_str(), static_cast<long long>(tally.pairs),
+                        static_cast<long long>(tally.hits), static_cast<long long>(tally.different), tally.largest);
             EXPECT_GT(tally.hits, tally.pairs / (place.at_edges ? 4 : 2));
             EXPECT_TRUE(!place.at_edges || tally.different > 0);
             EXPECT_GT(tally.largest, 1e-4L) << "the band is so wide that nothing could fail";

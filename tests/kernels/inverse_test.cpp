@@ -89,23 +89,32 @@ int hits_of(const Kernel& kernel, const std::array<Vec3<Scalar>, 3>& t, Random& 
     int hits = 0;
     for (int i = 0; i < 50; ++i) {
         const Vec3<double> w = random.weights();
-        const Vec3<double> x = w[0] * t[0].template cast<double>() + w[1] * t[1].template cast<double>() + w[2] * t[2].template cast<double>();
+        const Vec3<double> x = w[0] * t[0].template cast<double>() + w[1] * t[1].template cast<double>() +
+                               w[2] * t[2].template cast<double>();
         const Vec3<double> d = random.direction();
-        hits += tested(kernel, t, Vec3<Scalar>((x + d).template cast<Scalar>()), Vec3<Scalar>((x - d).template cast<Scalar>())) ? 1 : 0;
+        hits += tested(kernel, t, Vec3<Scalar>((x + d).template cast<Scalar>()),
+                       Vec3<Scalar>((x - d).template cast<Scalar>()))
+                    ? 1
+                    : 0;
     }
     return hits;
 }
 
 TEST(Degenerate, OnALatticeNoKernelHitsATriangleWithoutArea) {
     Random random(5);
-    const auto small = [&random] { return Vec3<float>(float(random.between_ints(-8, 8)), float(random.between_ints(-8, 8)), float(random.between_ints(-8, 8))); };
+    const auto small = [&random] {
+        return Vec3<float>(float(random.between_ints(-8, 8)), float(random.between_ints(-8, 8)),
+                           float(random.between_ints(-8, 8)));
+    };
     for (int i = 0; i < 2'000; ++i) {
         const Vec3<float> a = small();
         const Vec3<float> step = small();
-        const std::array<Vec3<float>, 3> t = {a, a + float(random.between_ints(-2, 2)) * step, a + float(random.between_ints(-2, 2)) * step};
+        const std::array<Vec3<float>, 3> t = {a, a + float(random.between_ints(-2, 2)) * step,
+                                              a + float(random.between_ints(-2, 2)) * step};
         const Vec3<float> from = small();
         const Vec3<float> to = small();
-        for_each_kernel([&](const char* name, const auto& kernel) { EXPECT_FALSE(tested(kernel, t, from, to)) << name; });
+        for_each_kernel(
+            [&](const char* name, const auto& kernel) { EXPECT_FALSE(tested(kernel, t, from, to)) << name; });
         EXPECT_FALSE(tested(kernels::exact, t, from, to));
     }
 }
@@ -114,7 +123,8 @@ TEST(Degenerate, EqualCornersAreNeverHitWhereANormalOrEdgeFunctionsAreComputed) 
     Random random(6);
     std::map<std::string, int> hits;
     for (int i = 0; i < 4'000; ++i) {
-        std::array<Vec3<float>, 3> t = {random.in_cube().cast<float>(), random.in_cube().cast<float>(), random.in_cube().cast<float>()};
+        std::array<Vec3<float>, 3> t = {random.in_cube().cast<float>(), random.in_cube().cast<float>(),
+                                        random.in_cube().cast<float>()};
         const std::size_t k = random.below(3);
         t[k] = t[(k + 1) % 3];
         for_each_kernel([&](const char* name, const auto& kernel) { hits[name] += hits_of(kernel, t, random); });

@@ -15,7 +15,8 @@ using D = Vec3<double>;
 // A right-angled triangle with two legs of the same length, hit in its middle along its normal: det is the square of the leg.
 TEST(KernelWeaknesses, McGuiresEpsilonLosesTrianglesBelowAThirdOfAMillimetre) {
     const auto is_hit = [](const kernels::McGuire& kernel, double leg) {
-        return tested(kernel, {D{0, 0, 0}, {leg, 0, 0}, {0, leg, 0}}, D(leg / 3, leg / 3, 1), D(leg / 3, leg / 3, -1)).has_value();
+        return tested(kernel, {D{0, 0, 0}, {leg, 0, 0}, {0, leg, 0}}, D(leg / 3, leg / 3, 1), D(leg / 3, leg / 3, -1))
+            .has_value();
     };
     double lost = 1e-9;
     double found = 1;
@@ -90,7 +91,8 @@ TEST(KernelWeaknesses, WhereThePlaneIsNoFunctionOfThePointChainsOfStepsLeak) {
     Random random(8);
     std::map<std::string, int> through;
     for (int i = 0; i < 50'000; ++i) {
-        const std::array<Vec3<float>, 3> t = {random.in_cube().cast<float>(), random.in_cube().cast<float>(), random.in_cube().cast<float>()};
+        const std::array<Vec3<float>, 3> t = {random.in_cube().cast<float>(), random.in_cube().cast<float>(),
+                                              random.in_cube().cast<float>()};
         const D w = 0.6 * random.weights() + D::Constant(0.4 / 3);
         const D x = w[0] * t[0].cast<double>() + w[1] * t[1].cast<double>() + w[2] * t[2].cast<double>();
         const D n = (t[1] - t[0]).cast<double>().cross((t[2] - t[0]).cast<double>());
@@ -129,7 +131,9 @@ TEST(KernelWeaknesses, OnlyWatertightAndExactHaveNoCracksAtSharedEdges) {
         const std::array<Vec3<float>, 3> right = {q, p, random.in_cube().cast<float>()};
         const double s = random.unit();
         const D x = (1 - s) * p.cast<double>() + s * q.cast<double>();
-        const auto normal = [](const auto& t) -> D { return (t[1] - t[0]).template cast<double>().cross((t[2] - t[0]).template cast<double>()).normalized(); };
+        const auto normal = [](const auto& t) -> D {
+            return (t[1] - t[0]).template cast<double>().cross((t[2] - t[0]).template cast<double>()).normalized();
+        };
         const D d = normal(left) + normal(right);
         const Vec3<float> from = (x + d).cast<float>();
         const Vec3<float> to = (x - d).cast<float>();

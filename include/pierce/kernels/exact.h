@@ -14,11 +14,13 @@ struct Exact {
     using Stored = Vertices<Number>;
 
     template <class Scalar>
-    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) const {
+    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
+                                           const PointOf<Scalar>& c) const {
         return {triple<Scalar>(a), triple<Scalar>(b), triple<Scalar>(c)};
     }
 
-    [[nodiscard]] std::optional<Answer<float>> test(const Vertices<float>& stored, const Vec3<float>& from, const Vec3<float>& to) const noexcept;
+    [[nodiscard]] std::optional<Answer<float>> test(const Vertices<float>& stored, const Vec3<float>& from,
+                                                    const Vec3<float>& to) const noexcept;
     [[nodiscard]] std::optional<Answer<double>> test(const Vertices<double>& stored, const Vec3<double>& from,
                                                      const Vec3<double>& to) const noexcept;
 };
