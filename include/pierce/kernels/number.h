@@ -1,0 +1,137 @@
+// The arithmetic that the single-triangle kernels are written in: once, over any type of number. float and double, a number that counts
+// its operations (tests), and several numbers in step (lib/kernel/wide.h) all run the same formula.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include <pierce/types.h>
+
+namespace pierce::kernels {
+
+// A number has + - * / and the comparisons; what these yield is its mask: bool, or one truth value for each lane. A type with lanes
+// brings `none`, `select` and the other functions of this page along, in its own namespace.
+
+template <class Number>
+using Mask = decltype(std::declval<const Number&>() < std::declval<const Number&>());
+
+/// No lane is true: nothing is left to do. For one lane that is the plain negation, and so the plain early-out.
+[[nodiscard]] constexpr bool none(bool mask) { return !mask; }
+
+template <class Number>
+[[nodiscard]] constexpr Number select(bool mask, const Number& yes, const Number& no) {
+    return mask ? yes : no;
+}
+
+template <class Number>
+using Triple = std::array<Number, 3>;
+
+template <class Scalar>
+[[nodiscard]] Triple<Scalar> triple(const Vec3<Scalar>& v) {
+    return {v[0], v[1], v[2]};
+}
+
+template <class Number>
+[[nodiscard]] constexpr Triple<Number> operator-(const Triple<Number>& p, const Triple<Number>& q) {
+    return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+}
+template <class Number>
+[[nodiscard]] constexpr Triple<Number> operator*(const Number& s, const Triple<Number>& p) {
+    return {s * p[0], s * p[1], s * p[2]};
+}
+template <class Number>
+[[nodiscard]] constexpr Number dot(const Triple<Number>& p, const Triple<Number>& q) {
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+}
+template <class Number>
+[[nodiscard]] constexpr Triple<Number> cross(const Triple<Number>& p, const Triple<Number>& q) {
+    return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+}
+
+/// The place of the largest component, the first of equals; for NaN any.
+template <class Scalar>
+[[nodiscard]] constexpr std::size_t largest(const Triple<Scalar>& p) {
+    const auto size = [&p](std::size_t k) { return p[k] < 0 ? -p[k] : p[k]; };
+    const std::size_t xy = size(1) > size(0) ? 1 : 0;
+    return size(2) > size(xy) ? 2 : xy;
+}
+
+/// An affine function of a point, `normal . p + offset`: a row of an affine map, or a plane scaled to measure what is wanted.
+template <class Number>
+struct Plane {
+    Triple<Number> normal;
+    Number offset;
+
+    [[nodiscard]] constexpr Number operator()(const Triple<Number>& p) const { return dot(normal, p) + offset; }
+};
+
+/// The function `normal . (p - through)`.
+template <class Number>
+[[nodiscard]] constexpr Plane<Number> plane(const Triple<Number>& normal, const Triple<Number>& through) {
+    return {normal, -dot(normal, through)};
+}
+
+/// What is stored where nothing is computed beforehand.
+template <class Number>
+struct Vertices {
+    Triple<Number> a;
+    Triple<Number> b;
+    Triple<Number> c;
+};
+
+/// The outcome of a test in the numbers it was made in. The values mean something where `hit` is true.
+template <class Number>
+struct Tested {
+    Mask<Number> hit;
+    Number fraction{};
+    Number u{};
+    Number v{};
+};
+
+/// Late division (Bloom 2002, addendum): everything has been decided on multiples by d > 0, and only a hit pays for quotients.
+/// With 0 <= part <= d each of them is in [0, 1] after rounding too, which a product by 1/d would not be.
+template <class Number>
+[[nodiscard]] constexpr Tested<Number> divided(const Mask<Number>& hit, const Number& fraction, const Number& u, const Number& v,
+                                               const Number& d) {
+    return {hit, fraction / d, u / d, v / d};
+}
+
+/// The heights of a segment's ends over a plane, turned so that an accepted segment comes from above: from >= 0 > to.
+template <class Number>
+struct Passage {
+    Mask<Number> hit;
+    Number from;
+    Number to;
+};
+
+/// Bloom's rule for the plane: the start on it counts as in front of it, the end has to be behind. For the back the same, mirrored.
+template <class Number>
+[[nodiscard]] constexpr Passage<Number> passage(const Number& from, const Number& to, Sides sides) {
+    const Number zero{};
+    const Mask<Number> front = (from >= zero) & (to < zero);
+    if (sides == Sides::front) return {front, from, to};
+    const Mask<Number> back = (from <= zero) & (to > zero);
+    if (sides == Sides::back) return {back, -from, -to};
+    const Mask<Number> either = front | back;
+    return {either, select(back, -from, from), select(back, -to, to)};
+}
+
+/// The same for kernels whose quotients are over a determinant that is positive for a segment from the front: turns it, and what is
+/// divided by it, so that it is positive for each side that counts.
+template <class Number>
+class Turning {
+  public:
+    Turning(const Number& determinant, Sides sides) : sides_(sides), negative_(determinant < Number{}) {}
+
+    [[nodiscard]] Number operator()(const Number& x) const {
+        return sides_ == Sides::front ? x : sides_ == Sides::back ? -x : select(negative_, -x, x);
+    }
+
+  private:
+    Sides sides_;
+    Mask<Number> negative_;
+};
+
+}  // namespace pierce::kernels
