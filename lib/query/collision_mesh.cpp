@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <environment.h>
 #include <query/engine.h>
-#include <query/environment.h>
 #include <query/mesh_report.h>
 
 namespace pierce {
