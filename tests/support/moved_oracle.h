@@ -61,8 +61,8 @@ class MovedOracle {
     static Vector cross(const Vector& x, const Vector& y) {
         return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
     }
-    // Of a, b, c, d; positive with d in front of a, b, c. b - a, of two points that are both moved or both not, is taken in whole units:
-    // below 2^7 x 2^98 x 3, which fits.
+    // Of a, b, c, d; positive with d in front of a, b, c. b - a, of two points that are both moved or both not, is taken in
+    // whole units: below 2^7 x 2^98 x 3, which fits.
     static Wide volume(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
         Vector unit = minus(b, a);
         for (Wide& x : unit) x /= Wide{1} << 42;
