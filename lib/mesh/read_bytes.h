@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -42,9 +42,10 @@ template <class Scalar, class Number>
     static_assert(std::numeric_limits<Scalar>::is_iec559, "what is too large must become infinite");
     const auto coordinate = static_cast<Scalar>(number);
     if (!std::isfinite(coordinate)) {
+        // Not printf, which goes by the rounding mode of the x87 unit too.
         std::array<char, 32> digits;
-        std::snprintf(digits.data(), digits.size(), "%.17g", static_cast<double>(number));
-        file.fail_at_byte(place, std::string("coordinate ") + digits.data() + " does not fit in float");
+        const auto end = std::to_chars(digits.begin(), digits.end(), static_cast<double>(number)).ptr;
+        file.fail_at_byte(place, "coordinate " + std::string(digits.begin(), end) + " does not fit in float");
     }
     return coordinate;
 }

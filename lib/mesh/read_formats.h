@@ -1,4 +1,5 @@
-// The reader of each file format: takes the file in memory, gives the mesh or throws.
+// The reader of each file format: takes the file in memory, gives the mesh or throws. Behind a call that the compiler does not inline:
+// read_mesh has made the arithmetic standard (environment.h), in which numbers are rounded to `Scalar` and polygons are cut.
 #pragma once
 
 #include <pierce/triangle_soup.h>
@@ -8,13 +9,13 @@
 namespace pierce::detail {
 
 template <class Scalar>
-[[nodiscard]] TriangleSoup<Scalar> read_obj(const SourceFile& file);
+[[nodiscard]] [[gnu::noinline]] TriangleSoup<Scalar> read_obj(const SourceFile& file);
 template <class Scalar>
-[[nodiscard]] TriangleSoup<Scalar> read_off(const SourceFile& file);
+[[nodiscard]] [[gnu::noinline]] TriangleSoup<Scalar> read_off(const SourceFile& file);
 template <class Scalar>
-[[nodiscard]] TriangleSoup<Scalar> read_ply(const SourceFile& file);
+[[nodiscard]] [[gnu::noinline]] TriangleSoup<Scalar> read_ply(const SourceFile& file);
 template <class Scalar>
-[[nodiscard]] TriangleSoup<Scalar> read_stl(const SourceFile& file);
+[[nodiscard]] [[gnu::noinline]] TriangleSoup<Scalar> read_stl(const SourceFile& file);
 
 extern template TriangleSoup<float> read_obj<float>(const SourceFile&);
 extern template TriangleSoup<double> read_obj<double>(const SourceFile&);

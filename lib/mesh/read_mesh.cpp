@@ -4,6 +4,7 @@
 
 #include <pierce/triangle_soup.h>
 
+#include "environment.h"
 #include "mesh/read_formats.h"
 #include "mesh/read_source.h"
 
@@ -23,6 +24,7 @@ template <class Scalar>
 TriangleSoup<Scalar> read_mesh(const std::filesystem::path& path) {
     const detail::SourceFile file(path);
     const std::string ending = ending_of(path);
+    const detail::StandardArithmetic standard;
     if (ending == ".obj") {
         return detail::read_obj<Scalar>(file);
     }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include <environment.h>
 #include <query/collision_mesh_impl.h>
 #include <query/engine.h>
-#include <query/environment.h>
 #include <query/mesh_report.h>
 
 namespace pierce {
@@ -45,26 +45,26 @@ CollisionMesh<Scalar>& CollisionMesh<Scalar>::operator=(CollisionMesh&&) noexcep
 template <class Scalar>
 std::optional<Hit<Scalar>> CollisionMesh<Scalar>::first_hit(const Segment<Scalar>& segment,
                                                             const QueryOptions& options) const noexcept {
+    const StandardArithmetic standard;
     Counters counters(options.counters);
     if (!impl_->finite(segment.from, segment.to) || !(options.max_fraction >= 0)) return std::nullopt;
-    const StandardArithmetic standard;
     return detail::first_hit(impl_->scene, segment, options, counters);
 }
 
 template <class Scalar>
 bool CollisionMesh<Scalar>::any_hit(const Segment<Scalar>& segment, const QueryOptions& options) const noexcept {
+    const StandardArithmetic standard;
     Counters counters(options.counters);
     if (!impl_->finite(segment.from, segment.to) || !(options.max_fraction >= 0)) return false;
-    const StandardArithmetic standard;
     return detail::any_hit(impl_->scene, segment, options, counters);
 }
 
 template <class Scalar>
 std::size_t CollisionMesh<Scalar>::all_hits(const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
                                             const QueryOptions& options) const noexcept {
+    const StandardArithmetic standard;
     Counters counters(options.counters);
     if (!impl_->finite(segment.from, segment.to) || !(options.max_fraction >= 0)) return 0;
-    const StandardArithmetic standard;
     return detail::all_hits(impl_->scene, segment, out, options, counters);
 }
 
@@ -78,17 +78,17 @@ std::optional<SweepHit<Scalar>> CollisionMesh<Scalar>::sweep(const Vec3<Scalar>&
 
 template <class Scalar>
 int CollisionMesh<Scalar>::crossings(const Segment<Scalar>& segment, QueryCounters* given) const noexcept {
+    const StandardArithmetic standard;
     Counters counters(given);
     if (!impl_->finite(segment.from, segment.to)) return 0;
-    const StandardArithmetic standard;
     return detail::crossings(impl_->scene, segment, counters);
 }
 
 template <class Scalar>
 int CollisionMesh<Scalar>::winding_number(const Vec3<Scalar>& point, QueryCounters* given) const noexcept {
+    const StandardArithmetic standard;
     Counters counters(given);
     if (!impl_->finite(point)) return 0;
-    const StandardArithmetic standard;
     return detail::winding_number(impl_->scene, point, counters);
 }
 
@@ -100,9 +100,9 @@ bool CollisionMesh<Scalar>::contains(const Vec3<Scalar>& point, QueryCounters* c
 template <class Scalar>
 std::vector<FaceVerdict> CollisionMesh<Scalar>::explain(const Segment<Scalar>& segment,
                                                         const QueryOptions& options) const {
+    const StandardArithmetic standard;
     Counters counters(options.counters);
     if (!impl_->finite(segment.from, segment.to)) return {};
-    const StandardArithmetic standard;
     return detail::explain(impl_->scene, segment, options, counters);
 }
 

@@ -1,9 +1,9 @@
 // The façade of batches: parts for the executor, each in standard arithmetic.
 #include <stdexcept>
 
+#include <environment.h>
 #include <query/collision_mesh_impl.h>
 #include <query/engine.h>
-#include <query/environment.h>
 
 namespace pierce {
 
@@ -42,6 +42,11 @@ std::size_t in_parts(std::size_t count, const BatchOptions& options, std::atomic
     return hits;
 }
 
+bool asks_nothing(const QueryOptions& options) {
+    const StandardArithmetic standard;  // NaN is no reason to trap
+    return !(options.max_fraction >= 0);
+}
+
 void check_sizes(std::size_t from, std::size_t to, std::size_t out) {
     if (from != to || from != out)
         throw std::invalid_argument("a batch of " + std::to_string(from) + " starts, " + std::to_string(to) + " ends and " +
@@ -51,7 +56,7 @@ void check_sizes(std::size_t from, std::size_t to, std::size_t out) {
 template <class Scalar, class Answer>
 std::size_t all_first(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::span<std::optional<Answer>> out,
                       const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries) {
-    if (!(options.max_fraction >= 0)) {
+    if (asks_nothing(options)) {
         std::fill(out.begin(), out.end(), std::nullopt);
         return 0;
     }
@@ -64,7 +69,7 @@ std::size_t all_first(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std:
 template <class Scalar>
 std::size_t all_any(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::span<std::uint8_t> out, const BatchOptions& options,
                     std::atomic<std::uint64_t>& invalid_queries) {
-    if (!(options.max_fraction >= 0)) {
+    if (asks_nothing(options)) {
         std::fill(out.begin(), out.end(), std::uint8_t{0});
         return 0;
     }

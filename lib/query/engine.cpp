@@ -32,9 +32,12 @@ std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
     traverse<Certified>(search, options, counters, all);
     for (std::size_t i = 0; i < all.kept_count(); ++i) {
         const Candidate candidate = all.kept(i);
+        // Hits that count and come strictly before. One that `accept` refuses on the way to `to` may count on the way to the point.
         const auto passed = [&](std::uint32_t triangle) {
             Candidate other;
+            if (masked(scene, triangle, options)) return false;
             if (!Certified::test(scene.corners(triangle), triangle, path, options.sides, 1, counters, other)) return false;
+            if (options.accept && !accepted(scene, path, other, options)) return false;
             if (other.latest < candidate.earliest) return true;
             return other.earliest <= candidate.latest &&
                    compare_fractions(path, scene.corners(triangle), scene.corners(candidate.triangle)) < 0;

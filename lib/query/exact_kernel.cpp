@@ -5,7 +5,7 @@
 
 #include <exact/decide.h>
 #include <exact/fraction.h>
-#include <query/environment.h>
+#include <environment.h>
 
 namespace pierce::kernels {
 

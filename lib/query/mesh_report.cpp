@@ -145,32 +145,52 @@ class Reporter {
                 note(report_.non_manifold_vertices, report_.non_manifold_vertex_list, fans[i].first);
     }
 
-    // How far a vertex that was put on an edge may lie from it: each coordinate is rounded once, and a few roundings went before.
-    double rounding(const MeshReport::Edge& edge) const {
+    double largest(const MeshReport::Edge& edge) const {
         double most = 0;
         for (const std::uint32_t v : edge)
             for (const double x : positions_[v]) most = std::max(most, std::abs(x));
-        return 4 * epsilon_ * most;
+        return most;
     }
 
-    // Whether v lies beside the inner part of the edge, within `rounding`. In units of the largest coordinate, against overflow.
+    // How far a vertex that was put on an edge may lie from it: each coordinate is rounded once, and a few roundings went before.
+    // Among denormal numbers it is 0: what lies on an edge exactly is found there, and nothing else.
+    double rounding(const MeshReport::Edge& edge) const { return 4 * epsilon_ * largest(edge); }
+
+    // Whether v lies beside the inner part of the edge, within `rounding`. In units of the edge's own length, but for a factor
+    // below 2: powers of two, so that they lose nothing, and among the smallest doubles nothing becomes zero.
     bool lies_on(std::uint32_t v, const MeshReport::Edge& edge) const {
         if (v == edge[0] || v == edge[1]) return false;
-        const double unit = rounding(edge) / (4 * epsilon_);
+        const double most = largest(edge);
+        const double shrink = most > 0x1p1020 ? 0x1p-3 : 1;  // against overflow of the differences
         Point d{};
         Point x{};
+        double length = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double start = shrink * positions_[edge[0]][k];
+            d[k] = shrink * positions_[edge[1]][k] - start;
+            x[k] = shrink * positions_[v][k] - start;
+            length = std::max(length, std::abs(d[k]));
+        }
+        if (!(length > 0)) return false;
+        const int scale = -std::ilogb(length);
         double square = 0;
         double along = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            d[k] = positions_[edge[1]][k] / unit - positions_[edge[0]][k] / unit;
-            x[k] = positions_[v][k] / unit - positions_[edge[0]][k] / unit;
+            d[k] = std::scalbn(d[k], scale);
+            x[k] = std::scalbn(x[k], scale);
             square += d[k] * d[k];
             along += d[k] * x[k];
         }
         if (!(along > 0 && along < square)) return false;
+        // |d x x| / |d|: with its own rounding within half of what is allowed. That of x less its foot on the edge can be
+        // more than all of it.
         double distance = 0;
-        for (std::size_t k = 0; k < 3; ++k) distance = std::hypot(distance, x[k] - along / square * d[k]);
-        return distance <= 4 * epsilon_;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t i = (k + 1) % 3;
+            const std::size_t j = (k + 2) % 3;
+            distance = std::hypot(distance, d[i] * x[j] - d[j] * x[i]);
+        }
+        return distance <= 4 * epsilon_ * std::scalbn(shrink * most, scale) * std::sqrt(square);
     }
 
     void look_at_borders() {

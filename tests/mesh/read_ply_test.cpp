@@ -109,7 +109,7 @@ TEST(ReadPly, RoundsToFloatOnceAndRefusesWhatDoesNotFit) {
         return ": byte " + std::to_string(file.find("end_header\n") + 11 + 20);
     };
     const std::string huge = with_last_x("double", -1e39);
-    EXPECT_EQ(refusal<float>("ply", huge), at(huge) + ": coordinate -9.9999999999999994e+38 does not fit in float");
+    EXPECT_EQ(refusal<float>("ply", huge), at(huge) + ": coordinate -1e+39 does not fit in float");
     EXPECT_EQ(refusal<double>("ply", huge), "read");
     const std::string nan = with_last_x("double", std::nan(""), std::endian::big);
     EXPECT_EQ(refusal("ply", nan), at(nan) + ": a coordinate is not a number (NaN)");

@@ -1,34 +1,13 @@
 // The caller's floating-point environment changes nothing: flush to zero, denormals are zero, every rounding mode, and both at once.
-#include <cfenv>
-
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
 #include <support/expect_hit.h>
 #include <support/meshes.h>
 #include <support/segments.h>
-
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
+#include <support/setting.h>
 
 namespace pierce::test {
 namespace {
-
-// What a game may have set. Restores the standard when it goes.
-class Setting {
-  public:
-    Setting(int rounding, bool flush) {
-        std::fesetround(rounding);
-#if defined(__SSE2__)
-        if (flush) _mm_setcsr(_mm_getcsr() | 0x8040);
-#else
-        (void)flush;
-#endif
-    }
-    ~Setting() { std::fesetenv(FE_DFL_ENV); }
-    Setting(const Setting&) = delete;
-    Setting& operator=(const Setting&) = delete;
-};
 
 // Everything that a mesh answers to some segments, built and asked under a setting.
 template <class Scalar>
@@ -51,10 +30,7 @@ std::vector<std::uint64_t> answers(const TriangleSoup<Scalar>& soup, const std::
                 out.insert(out.end(), {bits(hit.point[k]), bits(hit.normal[k]), bits(hit.barycentric[k])});
         }
     }
-#if defined(__SSE2__)
-    EXPECT_EQ((_mm_getcsr() & 0x8040) != 0, flush) << "the caller's setting is given back";
-#endif
-    EXPECT_EQ(std::fegetround(), rounding) << "the caller's setting is given back";
+    setting.expect_given_back();
     return out;
 }
 
@@ -72,9 +48,9 @@ void expect_same_everywhere(const char* what, const TriangleSoup<double>& unit, 
     }
     const auto standard = answers(soup, segments, FE_TONEAREST, false);
     EXPECT_GT(standard.size(), 3 * segments.size() + 1000);  // there are hits
-    for (const int rounding : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO})
-        for (const bool flush : {false, true})
-            EXPECT_EQ(answers(soup, segments, rounding, flush), standard) << "rounding " << rounding << " flush " << flush;
+    for_each_setting([&](int rounding, bool flush) {
+        EXPECT_EQ(answers(soup, segments, rounding, flush), standard) << "rounding " << rounding << " flush " << flush;
+    });
 }
 
 TEST(Environment, changes_no_bit) {

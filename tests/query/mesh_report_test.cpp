@@ -116,6 +116,22 @@ TEST(MeshReport, finds_t_junctions_also_where_they_were_rounded) {
         }
 }
 
+TEST(MeshReport, counts_a_vertex_with_three_fans_once) {
+    // Three tetrahedra that touch in the origin only.
+    TriangleSoup<double> soup;
+    for (const double turn : {0.0, 2.0, 4.0}) {
+        const auto first = static_cast<std::uint32_t>(soup.positions.size());
+        const auto arm = [&](double angle, double z) { return V(std::cos(turn + angle), std::sin(turn + angle), z); };
+        for (const V& p : {V(0, 0, 0), arm(0, 0), arm(1, 0), arm(0.5, 1)}) soup.positions.push_back(p);
+        for (const IndexTriple& t : {IndexTriple{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})
+            soup.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+    const MeshReport r = report(soup);
+    EXPECT_EQ(r.components, 3U);
+    EXPECT_EQ(r.non_manifold_vertices, 1U);
+    EXPECT_EQ(r.non_manifold_vertex_list, std::vector<std::uint32_t>{0});
+}
+
 TEST(MeshReport, counts_zero_area_and_leaves_it_out) {
     TriangleSoup<double> soup = bumpy_sphere(2);
     soup.triangles.push_back({0, 0, 1});

@@ -80,6 +80,8 @@ class RationalOracle {
     [[nodiscard]] const Q& fraction() const { return fraction_; }
     [[nodiscard]] const Q& weight(std::size_t corner) const { return weight_[corner]; }
     [[nodiscard]] const Q& from_side() const { return from_side_; }
+    [[nodiscard]] const Q& to_side() const { return to_side_; }
+    [[nodiscard]] bool zero_area() const { return n_[0] == 0 && n_[1] == 0 && n_[2] == 0; }
     /// A component of the normal, of a triangle that has one, over the largest of them; rounded once.
     [[nodiscard]] double normal_ratio(std::size_t k) const {
         Q largest = 0;

@@ -1,5 +1,5 @@
 // The floating-point environment that the library is proved for.
-#include <query/environment.h>
+#include <environment.h>
 
 #include <cfenv>
 

@@ -8,7 +8,7 @@ namespace pierce::detail {
 /// it only if it has to.
 ///
 /// The compiler knows nothing of that register, and may move arithmetic across its change: everything that counts must be behind a
-/// call that is not inlined (PIERCE_NOINLINE).
+/// call that is not inlined ([[gnu::noinline]]).
 class StandardArithmetic {
   public:
     StandardArithmetic() noexcept;
