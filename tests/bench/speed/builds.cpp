@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "../embree_scene.h"
-#include "batches.h"
+#include "threads.h"
 #include "segment_sets.h"
 
 namespace pierce::bench {

@@ -1,6 +1,6 @@
 #include <optional>
 
-#include "batches.h"
+#include "threads.h"
 #include "column.h"
 
 namespace pierce::bench {
@@ -62,7 +62,7 @@ template <class Scalar>
 class FirstBatch : public PierceColumn<Scalar> {
   public:
     FirstBatch(std::string_view name, SharedMesh<Scalar> mesh, unsigned threads)
-        : PierceColumn<Scalar>(name, std::move(mesh)), threads_(threads) {}
+        : PierceColumn<Scalar>(name, std::move(mesh)), threads_(threads), executor_(threads) {}
 
     void prepare(std::span<const Segment<float>> segments) override {
         PierceColumn<Scalar>::prepare(segments);
@@ -70,13 +70,15 @@ class FirstBatch : public PierceColumn<Scalar> {
     }
     std::size_t ask(std::size_t begin, std::size_t end) override {
         const std::size_t count = end - begin;
-        return first_hits<Scalar>(this->mesh(), this->segments().subspan(begin, count),
-                                  std::span(out_).subspan(begin, count), threads_);
+        BatchOptions options;
+        if (threads_ > 1) options.executor = executor_;
+        return this->mesh().first_hits(this->segments().subspan(begin, count), std::span(out_).subspan(begin, count), options);
     }
 
   private:
     std::vector<std::optional<Hit<Scalar>>> out_;
     unsigned threads_;
+    Threads executor_;
 };
 
 template <class Scalar>
@@ -89,8 +91,7 @@ class AnyBatch : public PierceColumn<Scalar> {
     }
     std::size_t ask(std::size_t begin, std::size_t end) override {
         const std::size_t count = end - begin;
-        return any_hits<Scalar>(this->mesh(), this->segments().subspan(begin, count),
-                                std::span(out_).subspan(begin, count));
+        return this->mesh().any_hits(this->segments().subspan(begin, count), std::span(out_).subspan(begin, count));
     }
 
   private:
