@@ -5,11 +5,9 @@
 #include <array>
 #include <cstdint>
 
-namespace pierce::detail {
+#include <packed_level.h>
 
-/// Steps to a cell, along each axis: what a packed box is measured in, counted from the cell's lower corner.
-constexpr int k_step_bits = 7;
-constexpr int k_steps = 1 << k_step_bits;
+namespace pierce::detail {
 
 /// A closed box in steps; three integers each.
 struct Steps {
@@ -20,18 +18,6 @@ struct Steps {
 /// A box is listed in the cells that it comes within this many steps of (grid/walk.h says why).
 constexpr int k_margin = 1;
 
-/// The part of a box in one cell. Bytes 0-2 hold its lower corner, bytes 4-6 its upper one, negated; byte 3 has bit k set where the
-/// cell before this one along axis k lists the box too, byte 7 where the one after it does. Each is a signed byte. So for a box and
-/// a `Cull`, all that makes them disjoint is that a byte of the one is larger than that of the other.
-using PackedBox = std::uint64_t;
-
-/// What packed boxes are compared with: a box is of no use if one of its bytes, as signed numbers, is larger than that of `above`, or
-/// if it has a bit of `seen`.
-struct Cull {
-    std::uint64_t above;
-    std::uint64_t seen;
-};
-
 namespace packing {
 
 [[nodiscard]] inline std::uint64_t byte(int value, int place) {
@@ -41,7 +27,7 @@ namespace packing {
 
 }  // namespace packing
 
-/// `cell`: the place of the cell, in cells.
+/// The part of a box in a cell, given by its place in cells.
 [[nodiscard]] inline PackedBox pack(const Steps& box, const std::array<int, 3>& cell) {
     PackedBox packed = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -65,14 +51,6 @@ namespace packing {
         cull.above |= packing::byte(-packing::clamped(box.low[k] - corner), at + 4);
     }
     return cull;
-}
-
-/// The boxes that the cell before this one, along each axis where that is one of the query's as well, lists too are left to that one: it leaves
-/// them whenever this one would, as the query's box then reaches to its end.
-[[nodiscard]] inline std::uint64_t seen_before(const std::array<int, 3>& cell, const std::array<int, 3>& first) {
-    int axes = 0;
-    for (std::size_t k = 0; k < 3; ++k) axes |= cell[k] > first[k] ? 1 << k : 0;
-    return packing::byte(axes, 3);
 }
 
 /// Leaves all boxes but those that the cell listed from which a walk came, by a step of +1 or -1 along an axis.

@@ -15,7 +15,7 @@ namespace {
 
 // A cell is this many times as wide as the median box. Surfaces fill cells by area: at 2 a cell lists some ten triangles and
 // a triangle is in some three cells. Measured (tests/bench/run): less takes memory, more takes time.
-constexpr double k_cell = 1.6;
+constexpr double k_cell = 2.5;
 // The next level's cells are this many times as wide; a box goes to the first level whose cells are not much smaller than it.
 constexpr double k_next_level = 4;
 constexpr double k_largest_box = 2;

@@ -15,12 +15,6 @@
 
 namespace pierce::detail {
 
-struct Node {
-    std::uint64_t parts = 0;  ///< bit x + 4 y + 16 z
-    std::uint32_t first = 0;  ///< of a brick: how many non-empty cells come before its own; else the place of its first child
-    std::uint32_t empty = 0;  ///< of a root without parts: roots less than this away, in the maximum norm, have none either
-};
-
 /// What a cell holds: places in the lists.
 struct Range {
     std::uint32_t begin = 0;
@@ -32,8 +26,11 @@ using Cell = std::array<int, 3>;
 class Level {
   public:
     [[nodiscard]] const Raster& raster() const { return raster_; }
-    [[nodiscard]] const PackedBox* boxes(std::uint32_t place) const { return boxes_.get() + place; }
-    [[nodiscard]] const std::uint32_t* ids(std::uint32_t place) const { return ids_.get() + place; }
+    [[nodiscard]] const PackedLevel& packed() const { return packed_; }
+    /// The ids of a level follow one another, from this one on.
+    [[nodiscard]] std::uint32_t first_id() const { return first_id_; }
+    [[nodiscard]] const PackedBox* boxes(std::uint32_t place) const { return packed_.boxes + place; }
+    [[nodiscard]] const std::uint32_t* ids(std::uint32_t place) const { return packed_.ids + place; }
 
     /// Where a cell is in the tree: its brick, if that has any cells that hold something, else a cube around it that has none.
     struct Place {
@@ -42,14 +39,15 @@ class Level {
         int reach;          ///< and this many cells more on all sides
     };
     [[nodiscard]] Place find(const Cell& cell) const {
-        const Node* node = &nodes_[static_cast<std::size_t>(cell[0] >> root_shift_) * strides_[0] +
-                                   static_cast<std::size_t>(cell[1] >> root_shift_) * strides_[1] +
-                                   static_cast<std::size_t>(cell[2] >> root_shift_) * strides_[2]];
-        if (node->parts == 0) return {nullptr, root_shift_, static_cast<int>(node->empty - 1) << root_shift_};
-        for (int shift = root_shift_ - 2; shift > 0; shift -= 2) {
+        const int top = packed_.root_shift;
+        const Node* node = packed_.nodes + (static_cast<std::size_t>(cell[0] >> top) * packed_.strides[0] +
+                                            static_cast<std::size_t>(cell[1] >> top) * packed_.strides[1] +
+                                            static_cast<std::size_t>(cell[2] >> top) * packed_.strides[2]);
+        if (node->parts == 0) return {nullptr, top, static_cast<int>(node->empty - 1) << top};
+        for (int shift = top - 2; shift > 0; shift -= 2) {
             const std::uint64_t bit = bit_of({cell[0] >> shift, cell[1] >> shift, cell[2] >> shift});
             if ((node->parts & bit) == 0) return {nullptr, shift, 0};
-            node = &nodes_[number(*node, bit)];
+            node = packed_.nodes + number(*node, bit);
         }
         return {node, 0, 0};
     }
@@ -57,19 +55,19 @@ class Level {
         return std::uint64_t{1} << ((cell[0] & 3) | (cell[1] & 3) << 2 | (cell[2] & 3) << 4);
     }
     /// Of a part that holds something: of a brick's, the number of the cell.
-    [[nodiscard]] static std::size_t number(const Node& node, std::uint64_t bit) {
+    [[nodiscard]] static std::uint32_t number(const Node& node, std::uint64_t bit) {
         return node.first + count_bits(node.parts & (bit - 1));
     }
     // Without an instruction for it, which not every x86-64 machine has, std::popcount is a call (Warren 2002, Hacker's Delight, 5-1).
-    static std::size_t count_bits(std::uint64_t x) {
+    static std::uint32_t count_bits(std::uint64_t x) {
         x -= x >> 1 & 0x5555555555555555;
         x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
         x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0f;
-        return static_cast<std::size_t>(x * 0x0101010101010101 >> 56);
+        return static_cast<std::uint32_t>(x * 0x0101010101010101 >> 56);
     }
 
-    [[nodiscard]] const std::uint32_t* start(std::size_t number) const { return &starts_[number]; }
-    [[nodiscard]] Range range(std::size_t number) const { return {starts_[number], starts_[number + 1]}; }
+    [[nodiscard]] const std::uint32_t* start(std::uint32_t number) const { return packed_.starts + number; }
+    [[nodiscard]] Range range(std::uint32_t number) const { return {packed_.starts[number], packed_.starts[number + 1]}; }
 
     [[nodiscard]] std::size_t reference_count() const { return references_; }
     [[nodiscard]] std::size_t bytes() const {
@@ -84,13 +82,13 @@ class Level {
     friend class LevelBuilder;
 
     Raster raster_;
-    std::array<std::size_t, 3> strides_ = {0, 0, 0};
-    std::vector<Node> nodes_;  ///< the roots, then layer by layer, last the bricks
-    int root_shift_ = 2;       ///< a root is of 2^root_shift cells along each axis
+    PackedLevel packed_;  ///< points into the rest
+    std::vector<Node> nodes_;
     std::vector<std::uint32_t> starts_;
     std::unique_ptr<PackedBox[]> boxes_;
     std::unique_ptr<std::uint32_t[]> ids_;
     std::size_t references_ = 0;
+    std::uint32_t first_id_ = 0;
 };
 
 }  // namespace pierce::detail

@@ -236,9 +236,8 @@ void LevelBuilder::build_sparse(Level& level) const {
 Level LevelBuilder::build(const Executor& executor) {
     Level level;
     level.raster_ = raster_;
-    level.strides_ = strides_;
-    level.root_shift_ = root_shift_;
     level.references_ = references_;
+    level.first_id_ = first_;
     level.nodes_.resize(strides_[slow_] * static_cast<std::size_t>(roots_[slow_]));
     level.boxes_ = std::make_unique_for_overwrite<PackedBox[]>(references_ + Level::k_beyond);
     std::fill_n(level.boxes_.get() + references_, Level::k_beyond, 0);
@@ -257,6 +256,17 @@ Level LevelBuilder::build(const Executor& executor) {
     }
     level.starts_.push_back(static_cast<std::uint32_t>(references_));
     measure_empty_space(level);
+    for (std::size_t k = 0; k < 3; ++k) {
+        level.packed_.half_low[k] = raster_.half_low(k);
+        level.packed_.scale[k] = raster_.scale(k);
+        level.packed_.most[k] = raster_.most(k);
+        level.packed_.strides[k] = static_cast<std::uint32_t>(strides_[k]);  // of fewer roots than triangles
+    }
+    level.packed_.nodes = level.nodes_.data();
+    level.packed_.starts = level.starts_.data();
+    level.packed_.boxes = level.boxes_.get();
+    level.packed_.ids = level.ids_.get();
+    level.packed_.root_shift = root_shift_;
     return level;
 }
 

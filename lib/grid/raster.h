@@ -40,6 +40,8 @@ class Raster {
     /// Where a coordinate is, in steps, not rounded to whole ones: may be far outside of the cells, or infinite. `half`: half of the
     /// coordinate, so that the difference of two huge ones does not overflow.
     [[nodiscard]] double place(std::size_t axis, double half) const { return (half - half_low_[axis]) * scale_[axis]; }
+    [[nodiscard]] double half_low(std::size_t axis) const { return half_low_[axis]; }
+    [[nodiscard]] double scale(std::size_t axis) const { return scale_[axis]; }
     /// The number of steps along an axis.
     [[nodiscard]] double most(std::size_t axis) const { return most_[axis]; }
 

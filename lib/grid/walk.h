@@ -1,8 +1,6 @@
-// Which cells a segment may touch.
+// Which cells a long segment may touch. (A short one's: kernel/block.h.)
 //
-// Short segments: every cell that their box shares a step with. Nothing is computed along the way, so nothing can be missed (raster.h).
-//
-// Long segments: cell by cell in the order of the segment (Amanatides and Woo 1987), striding over empty space by the tree's empty parts and the distances kept
+// Cell by cell in the order of the segment (Amanatides and Woo 1987), striding over empty space by the tree's empty parts and the distances kept
 // with empty roots (Cohen and Sheffer 1994, "Proximity clouds"). Two margins make it certain: boxes are listed in every cell that they
 // come within a step (1/128 of a cell) of, and what is asked of a cell is a step larger on all sides. Why they are enough:
 //
@@ -28,89 +26,6 @@
 #include <grid/level.h>
 
 namespace pierce::detail {
-
-/// Where a query has come to: a cell that holds something, and which boxes it is to leave there.
-struct Stop {
-    const Level* level;
-    std::size_t number;   ///< of the cell, see Level::range
-    Cull cull;
-    double fraction;      ///< at which the segment enters the cell; 0 where that is not known
-};
-
-/// Which cells of a brick have one of some places along an axis, for each set of the four places.
-struct PlaceMasks {
-    constexpr PlaceMasks(int bits, std::uint64_t one) {
-        for (unsigned set = 0; set < 16; ++set)
-            for (int i = 0; i < 4; ++i)
-                if ((set >> i & 1) != 0) cells[set] |= one << (bits * i);
-    }
-    std::array<std::uint64_t, 16> cells{};
-};
-inline constexpr std::array<PlaceMasks, 3> k_place_masks = {PlaceMasks(1, 0x1111111111111111), PlaceMasks(4, 0x000f000f000f000f),
-                                                            PlaceMasks(16, 0x000000000000ffff)};
-
-/// `start`, then `next` until it says no: the cells from `first` to `last` that hold something. Each box that shares a step with `box` is
-/// left by one of them only.
-class BlockWalk {
-  public:
-    /// Finds the cells, and says how many there are; -1 if they lie in more than two bricks along an axis: then there is no walk.
-    int start(const Level& level, const Steps& box, const Cell& first, const Cell& last) {
-        level_ = &level;
-        box_ = box;
-        first_ = first;
-        parts_ = 0;
-        at_ = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            if ((last[k] >> 2) - (first[k] >> 2) > 1) return -1;
-        int found = 0;
-        Cell corner{};
-        for (corner[2] = first[2] & ~3; corner[2] <= last[2]; corner[2] += 4)
-            for (corner[1] = first[1] & ~3; corner[1] <= last[1]; corner[1] += 4)
-                for (corner[0] = first[0] & ~3; corner[0] <= last[0]; corner[0] += 4) {
-                    const Node* brick = level.find(corner).brick;
-                    if (brick == nullptr) continue;
-                    const auto bits = [&](std::size_t k) {
-                        const int low = std::max(first[k] - corner[k], 0);
-                        const int high = std::min(last[k] - corner[k], 3);
-                        return k_place_masks[k].cells[(2U << high) - (1U << low)];
-                    };
-                    const std::uint64_t cells = brick->parts & bits(0) & bits(1) & bits(2);
-                    if (cells == 0) continue;
-                    found += static_cast<int>(Level::count_bits(cells));
-                    part_[parts_++] = {brick, cells, corner};
-                }
-        return found;
-    }
-
-    bool next(Stop& stop) {
-        for (; at_ < parts_; ++at_) {
-            Part& part = part_[at_];
-            if (part.cells == 0) continue;
-            const std::uint64_t bit = part.cells & (~part.cells + 1);
-            part.cells ^= bit;
-            const int place = std::countr_zero(bit);
-            const Cell cell = {part.corner[0] + (place & 3), part.corner[1] + (place >> 2 & 3), part.corner[2] + (place >> 4)};
-            stop = {level_, Level::number(*part.brick, bit), cull_of(box_, cell), 0};
-            stop.cull.seen = seen_before(cell, first_);
-            return true;
-        }
-        return false;
-    }
-
-  private:
-    struct Part {
-        const Node* brick;
-        std::uint64_t cells;  ///< those of the block that hold something and are still to come
-        Cell corner;
-    };
-
-    const Level* level_;
-    Steps box_;
-    Cell first_;
-    unsigned parts_;
-    unsigned at_;
-    std::array<Part, 8> part_;
-};
 
 constexpr double k_pad = 0x1p-8;        ///< how far the outermost cells reach beyond the grid
 constexpr double k_flat = 0x1p-20;      ///< an axis along which a line goes less counts as constant
@@ -183,11 +98,14 @@ class LineWalk {
             }
             const std::uint64_t bit = Level::bit_of(cell_);
             if ((place.brick->parts & bit) == 0) continue;
-            stop = {level_, Level::number(*place.brick, bit), once_ ? unseen_ : cull_here(), enter_};
+            stop = {Level::number(*place.brick, bit), once_ ? unseen_ : cull_here()};
             started_ = true;
             return true;
         }
     }
+
+    /// The fraction at which the segment enters the cell that it has come to.
+    [[nodiscard]] double fraction() const { return enter_; }
 
   private:
     [[nodiscard]] int cells(std::size_t k) const { return level_->raster().cells()[k]; }

@@ -6,6 +6,8 @@
 
 #include <cstdint>
 
+#include <packed_level.h>
+
 namespace pierce::detail {
 
 /// A segment as the wide kernels read it, in units of about a cell, so that single precision neither overflows nor underflows.
@@ -24,22 +26,28 @@ struct Probe {
 
 struct Backend {
     const char* name;
+    /// The cells of a short segment in a level, see block.h: how many it gave; -1 if they are too many. Reads four numbers of each point.
+    int (*block)(const PackedLevel& level, const double* half_from, const double* half_to, Stop* stops);
+    /// `block` and `cull` for all of its cells: the ids that are left, how many cells there were. -1: too many cells, or `room` may not
+    /// do for what they leave. `out` has 8 more.
+    int (*look)(const PackedLevel& level, const double* half_from, const double* half_to, std::uint32_t* out, unsigned room,
+                unsigned* cells);
     /// The ids of the boxes that `above` and `seen` leave (packed_box.h), in order; returns how many. Reads up to 7 boxes beyond
     /// the last. `out` has room for `count` and 8 more.
     unsigned (*cull)(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
                      std::uint32_t* out);
     /// The ids of the triangles that the segment may hit, in order; returns how many. `corners` has nine scalars a triangle, and one
-    /// more at the end. `out` has room for `count`.
-    unsigned (*refine_float)(const Probe<float>& probe, const float* corners, const std::uint32_t* ids, unsigned count,
+    /// more at the end. `out` has room for `count`; `ids` for 7 more if their number is no multiple of 8, which are overwritten.
+    unsigned (*refine_float)(const Probe<float>& probe, const float* corners, std::uint32_t* ids, unsigned count,
                              std::uint32_t* out);
-    unsigned (*refine_double)(const Probe<double>& probe, const double* corners, const std::uint32_t* ids, unsigned count,
+    unsigned (*refine_double)(const Probe<double>& probe, const double* corners, std::uint32_t* ids, unsigned count,
                               std::uint32_t* out);
 
-    [[nodiscard]] unsigned refine(const Probe<float>& probe, const float* corners, const std::uint32_t* ids, unsigned count,
+    [[nodiscard]] unsigned refine(const Probe<float>& probe, const float* corners, std::uint32_t* ids, unsigned count,
                                   std::uint32_t* out) const {
         return refine_float(probe, corners, ids, count, out);
     }
-    [[nodiscard]] unsigned refine(const Probe<double>& probe, const double* corners, const std::uint32_t* ids, unsigned count,
+    [[nodiscard]] unsigned refine(const Probe<double>& probe, const double* corners, std::uint32_t* ids, unsigned count,
                                   std::uint32_t* out) const {
         return refine_double(probe, corners, ids, count, out);
     }

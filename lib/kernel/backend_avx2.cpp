@@ -2,7 +2,7 @@
 #include <immintrin.h>
 
 #include <kernel/backends.h>
-#include <kernel/lanes.h>
+#include <kernel/block.h>
 
 namespace pierce::detail {
 
@@ -44,6 +44,15 @@ struct Avx2 {
         const auto row = [&](unsigned i) { return _mm256_insertf128_ps(_mm256_castps128_ps256(half(i)), half(i + 4), 1); };
         return columns(row(0), row(1), row(2), row(3));
     }
+
+    static void lower(Double4& x, const Double4& y) { x = _mm256_min_pd(x, y); }
+    static void raise(Double4& x, const Double4& y) { x = _mm256_max_pd(x, y); }
+    static unsigned negative(Int4 x) { return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(x))); }
+    static std::uint64_t pack(Int4 low, Int4 high) {
+        const __m128i words = _mm_packs_epi32(reinterpret_cast<__m128i>(low), reinterpret_cast<__m128i>(high));
+        return static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm_packs_epi16(words, words)));
+    }
+    static unsigned count_bits(std::uint64_t x) { return static_cast<unsigned>(__builtin_popcountll(x)); }
 
     using Bytes = __m256i;
     static Bytes bytes(std::uint64_t x) { return _mm256_set1_epi64x(static_cast<long long>(x)); }
@@ -87,18 +96,26 @@ struct Four {
     }
 };
 
+int block_avx2(const PackedLevel& level, const double* half_from, const double* half_to, Stop* stops) {
+    return block<Avx2>(level, half_from, half_to, stops);
+}
+
+int look_avx2(const PackedLevel& level, const double* half_from, const double* half_to, std::uint32_t* out, unsigned room, unsigned* cells) {
+    return look<Avx2>(level, half_from, half_to, out, room, cells);
+}
+
 unsigned cull_avx2(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
                    std::uint32_t* out) {
     return cull<Avx2>(boxes, ids, count, above, seen, out);
 }
 
 template <class Scalar>
-unsigned refine_avx2(const Probe<Scalar>& probe, const Scalar* corners, const std::uint32_t* ids, unsigned count, std::uint32_t* out) {
+unsigned refine_avx2(const Probe<Scalar>& probe, const Scalar* corners, std::uint32_t* ids, unsigned count, std::uint32_t* out) {
     return count <= 4 ? refine<Four>(probe, corners, ids, count, out) : refine<Avx2>(probe, corners, ids, count, out);
 }
 
 }  // namespace
 
-const Backend k_avx2 = {"avx2", cull_avx2, refine_avx2<float>, refine_avx2<double>};
+const Backend k_avx2 = {"avx2", block_avx2, look_avx2, cull_avx2, refine_avx2<float>, refine_avx2<double>};
 
 }  // namespace pierce::detail

@@ -2,7 +2,7 @@
 #include <arm_neon.h>
 
 #include <kernel/backends.h>
-#include <kernel/lanes.h>
+#include <kernel/block.h>
 
 namespace pierce::detail {
 
@@ -46,6 +46,18 @@ struct Neon {
         return columns(row(0), row(1), row(2), row(3));
     }
 
+    static void lower(Double4& x, const Double4& y) { x = x < y ? x : y; }
+    static void raise(Double4& x, const Double4& y) { x = x > y ? x : y; }
+    static unsigned negative(Int4 x) {
+        const int32x4_t place = {0, 1, 2, 3};
+        return vaddvq_u32(vshlq_u32(vshrq_n_u32(reinterpret_cast<uint32x4_t>(x), 31), place));
+    }
+    static std::uint64_t pack(Int4 low, Int4 high) {
+        const int16x8_t words = vcombine_s16(vqmovn_s32(reinterpret_cast<int32x4_t>(low)), vqmovn_s32(reinterpret_cast<int32x4_t>(high)));
+        return vget_lane_u64(vreinterpret_u64_s8(vqmovn_s16(words)), 0);
+    }
+    static unsigned count_bits(std::uint64_t x) { return vaddv_u8(vcnt_u8(vcreate_u8(x))); }
+
     using Bytes = int8x16_t;
     static Bytes bytes(std::uint64_t x) { return vreinterpretq_s8_u64(vdupq_n_u64(x)); }
     static unsigned left(const std::uint64_t* box, Bytes above, Bytes seen) {
@@ -56,18 +68,26 @@ struct Neon {
     }
 };
 
+int block_neon(const PackedLevel& level, const double* half_from, const double* half_to, Stop* stops) {
+    return block<Neon>(level, half_from, half_to, stops);
+}
+
+int look_neon(const PackedLevel& level, const double* half_from, const double* half_to, std::uint32_t* out, unsigned room, unsigned* cells) {
+    return look<Neon>(level, half_from, half_to, out, room, cells);
+}
+
 unsigned cull_neon(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
                    std::uint32_t* out) {
     return cull<Neon>(boxes, ids, count, above, seen, out);
 }
 
 template <class Scalar>
-unsigned refine_neon(const Probe<Scalar>& probe, const Scalar* corners, const std::uint32_t* ids, unsigned count, std::uint32_t* out) {
+unsigned refine_neon(const Probe<Scalar>& probe, const Scalar* corners, std::uint32_t* ids, unsigned count, std::uint32_t* out) {
     return refine<Neon>(probe, corners, ids, count, out);
 }
 
 }  // namespace
 
-const Backend k_neon = {"neon", cull_neon, refine_neon<float>, refine_neon<double>};
+const Backend k_neon = {"neon", block_neon, look_neon, cull_neon, refine_neon<float>, refine_neon<double>};
 
 }  // namespace pierce::detail

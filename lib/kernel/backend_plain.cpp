@@ -1,6 +1,6 @@
 // One triangle at a time, for machines whose instruction set has no file of its own, and to compare the others with; see lanes.h.
 #include <kernel/backends.h>
-#include <kernel/lanes.h>
+#include <kernel/block.h>
 
 namespace pierce::detail {
 
@@ -23,6 +23,23 @@ struct Plain {
         return {difference(0), difference(1), difference(2)};
     }
 
+    static void lower(Double4& x, const Double4& y) { x = x < y ? x : y; }
+    static void raise(Double4& x, const Double4& y) { x = x > y ? x : y; }
+    static unsigned negative(Int4 x) {
+        unsigned bits = 0;
+        for (int k = 0; k < 4; ++k) bits |= x[k] < 0 ? 1U << k : 0U;
+        return bits;
+    }
+    static std::uint64_t pack(Int4 low, Int4 high) {
+        std::uint64_t bytes = 0;
+        for (int k = 0; k < 8; ++k) {
+            const int x = k < 4 ? low[k] : high[k - 4];
+            bytes |= static_cast<std::uint64_t>((x < -128 ? -128 : x > 127 ? 127 : x) & 0xff) << (8 * k);
+        }
+        return bytes;
+    }
+    static unsigned count_bits(std::uint64_t x) { return count_bits_by_halves(x); }
+
     using Bytes = std::uint64_t;
     static Bytes bytes(std::uint64_t x) { return x; }
     static unsigned left(const std::uint64_t* box, Bytes above, Bytes seen) {
@@ -33,18 +50,26 @@ struct Plain {
     }
 };
 
+int block_plain(const PackedLevel& level, const double* half_from, const double* half_to, Stop* stops) {
+    return block<Plain>(level, half_from, half_to, stops);
+}
+
+int look_plain(const PackedLevel& level, const double* half_from, const double* half_to, std::uint32_t* out, unsigned room, unsigned* cells) {
+    return look<Plain>(level, half_from, half_to, out, room, cells);
+}
+
 unsigned cull_plain(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
                     std::uint32_t* out) {
     return cull<Plain>(boxes, ids, count, above, seen, out);
 }
 
 template <class Scalar>
-unsigned refine_plain(const Probe<Scalar>& probe, const Scalar* corners, const std::uint32_t* ids, unsigned count, std::uint32_t* out) {
+unsigned refine_plain(const Probe<Scalar>& probe, const Scalar* corners, std::uint32_t* ids, unsigned count, std::uint32_t* out) {
     return refine<Plain>(probe, corners, ids, count, out);
 }
 
 }  // namespace
 
-const Backend k_plain = {"plain", cull_plain, refine_plain<float>, refine_plain<double>};
+const Backend k_plain = {"plain", block_plain, look_plain, cull_plain, refine_plain<float>, refine_plain<double>};
 
 }  // namespace pierce::detail

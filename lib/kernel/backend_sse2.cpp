@@ -2,7 +2,7 @@
 #include <emmintrin.h>
 
 #include <kernel/backends.h>
-#include <kernel/lanes.h>
+#include <kernel/block.h>
 
 namespace pierce::detail {
 
@@ -42,6 +42,15 @@ struct Sse2 {
         return columns(row(0), row(1), row(2), row(3));
     }
 
+    static void lower(Double4& x, const Double4& y) { x = x < y ? x : y; }
+    static void raise(Double4& x, const Double4& y) { x = x > y ? x : y; }
+    static unsigned negative(Int4 x) { return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(x))); }
+    static std::uint64_t pack(Int4 low, Int4 high) {
+        const __m128i words = _mm_packs_epi32(reinterpret_cast<__m128i>(low), reinterpret_cast<__m128i>(high));
+        return static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm_packs_epi16(words, words)));
+    }
+    static unsigned count_bits(std::uint64_t x) { return count_bits_by_halves(x); }
+
     using Bytes = __m128i;
     static Bytes bytes(std::uint64_t x) { return _mm_set1_epi64x(static_cast<long long>(x)); }
     static unsigned left(const std::uint64_t* box, Bytes above, Bytes seen) {
@@ -54,18 +63,26 @@ struct Sse2 {
     }
 };
 
+int block_sse2(const PackedLevel& level, const double* half_from, const double* half_to, Stop* stops) {
+    return block<Sse2>(level, half_from, half_to, stops);
+}
+
+int look_sse2(const PackedLevel& level, const double* half_from, const double* half_to, std::uint32_t* out, unsigned room, unsigned* cells) {
+    return look<Sse2>(level, half_from, half_to, out, room, cells);
+}
+
 unsigned cull_sse2(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
                    std::uint32_t* out) {
     return cull<Sse2>(boxes, ids, count, above, seen, out);
 }
 
 template <class Scalar>
-unsigned refine_sse2(const Probe<Scalar>& probe, const Scalar* corners, const std::uint32_t* ids, unsigned count, std::uint32_t* out) {
+unsigned refine_sse2(const Probe<Scalar>& probe, const Scalar* corners, std::uint32_t* ids, unsigned count, std::uint32_t* out) {
     return refine<Sse2>(probe, corners, ids, count, out);
 }
 
 }  // namespace
 
-const Backend k_sse2 = {"sse2", cull_sse2, refine_sse2<float>, refine_sse2<double>};
+const Backend k_sse2 = {"sse2", block_sse2, look_sse2, cull_sse2, refine_sse2<float>, refine_sse2<double>};
 
 }  // namespace pierce::detail

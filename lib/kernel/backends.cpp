@@ -12,7 +12,7 @@ const std::vector<const Backend*>& backends() {
         std::vector<const Backend*> found;
 #if defined(__x86_64__)
         __builtin_cpu_init();
-        if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) found.push_back(&k_avx2);
+        if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2")) found.push_back(&k_avx2);
         found.push_back(&k_sse2);
 #elif defined(__aarch64__)
         found.push_back(&k_neon);

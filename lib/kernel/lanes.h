@@ -87,22 +87,23 @@ template <class Wide, class Scalar>
 }
 
 template <class Wide, class Scalar>
-[[gnu::always_inline]] inline unsigned refine(const Probe<Scalar>& probe, const Scalar* corners, const std::uint32_t* ids,
-                                              unsigned count, std::uint32_t* out) {
+[[gnu::always_inline]] inline unsigned refine(const Probe<Scalar>& probe, const Scalar* corners, std::uint32_t* ids, unsigned count,
+                                              std::uint32_t* out) {
     unsigned left = 0;
+    if (count % Wide::width != 0)  // lanes without a triangle of their own take the first one
+        for (unsigned i = 0; i < Wide::width - 1; ++i) ids[count + i] = ids[0];
     for (unsigned first = 0; first < count; first += Wide::width) {
+        const Scalar* at[Wide::width];
+        for (unsigned i = 0; i < Wide::width; ++i) at[i] = corners + 9 * std::size_t{ids[first + i]};
+        const auto corner = [&](unsigned k) {
+            const Scalar* x[Wide::width];
+            for (unsigned i = 0; i < Wide::width; ++i) x[i] = at[i] + 3 * k;
+            return Wide::relative(x, probe.origin, probe.scale);
+        };
         const unsigned here = count - first < Wide::width ? count - first : Wide::width;
-        Lanes<Wide> corner[3];
-        for (unsigned k = 0; k < 3; ++k) {
-            const Scalar* at[Wide::width];
-            for (unsigned i = 0; i < Wide::width; ++i) at[i] = corners + 9 * std::size_t{ids[first + (i < here ? i : 0)]} + 3 * k;
-            corner[k] = Wide::relative(at, probe.origin, probe.scale);
-        }
-        const unsigned lanes = may_hit<Wide>(probe, corner[0], corner[1], corner[2]);
-        for (unsigned i = 0; i < here; ++i) {
-            out[left] = ids[first + i];
-            left += (lanes >> i) & 1;
-        }
+        const unsigned lanes = may_hit<Wide>(probe, corner(0), corner(1), corner(2));
+        for (unsigned found = lanes & ((1U << here) - 1); found != 0; found &= found - 1)
+            out[left++] = ids[first + static_cast<unsigned>(__builtin_ctz(found))];
     }
     return left;
 }

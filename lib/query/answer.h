@@ -13,7 +13,7 @@ namespace pierce::detail {
 /// it. With a complete `shortlist` of the query's triangles the grid is not asked again.
 template <class Kernel, class Scalar, class Passed>
 [[nodiscard]] Hit<Scalar> answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Passed& passed,
-                                 const QueryOptions& options, QueryCounters& counters, const Shortlist* shortlist = nullptr) {
+                                 const QueryOptions& options, QueryCounters& counters, Shortlist* shortlist = nullptr) {
     const std::uint32_t triangle = candidate.triangle;
     const Corners corners = scene.corners(triangle);
     const Point normal = normal_of<Scalar>(corners);
@@ -26,7 +26,6 @@ template <class Kernel, class Scalar, class Passed>
         Search<Scalar> search(scene, {path.from, point}, options.sides);
         Any any(passed, triangle);  // verify() has seen to the hit's own triangle
         if (shortlist != nullptr && shortlist->complete) {
-            search.probe.unit = Kernel::unit;
             test_triangles<Kernel>(search, shortlist->ids.data(), shortlist->count, whole, counters, any);
         } else {
             traverse<Kernel>(search, whole, counters, any);

@@ -18,7 +18,7 @@ struct Flight {
     Cells<Scalar> cells;
     Collector collector;
     Shortlist shortlist;
-    Range range;
+    std::array<Range, k_most_block> ranges;
     Ids ids;
     unsigned count = 0;
 
@@ -54,7 +54,6 @@ void fly(const Scene<Scalar>& scene, std::size_t count, const QueryOptions& opti
         for (Path path; next < count; ++next) {
             if (start(next, path)) {
                 place.emplace(scene, next++, path, options.sides, make);
-                place->search.probe.unit = Kernel::unit;
                 return true;
             }
             done(next, static_cast<Query*>(nullptr));
@@ -67,13 +66,10 @@ void fly(const Scene<Scalar>& scene, std::size_t count, const QueryOptions& opti
         for (std::size_t i = 0; i < under_way;) {
             Query& query = *active[i];
             if (query.cells.next(std::min(query.collector.limit(), options.max_fraction))) {
-                ++counters.cells;
-                if (query.cells.all()) {
-                    ++i;
-                    continue;
-                }
-                __builtin_prefetch(query.cells.stop().level->start(query.cells.stop().number));
                 ++i;
+                if (query.cells.all()) continue;
+                counters.cells += query.cells.stops().size();
+                for (const Stop& stop : query.cells.stops()) __builtin_prefetch(query.cells.level().start(stop.number));
                 continue;
             }
             done(query.number, &query);
@@ -83,41 +79,45 @@ void fly(const Scene<Scalar>& scene, std::size_t count, const QueryOptions& opti
         for (std::size_t i = 0; i < under_way; ++i) {
             Query& query = *active[i];
             if (query.cells.all()) continue;
-            const Stop& stop = query.cells.stop();
-            query.range = stop.level->range(stop.number);
-            const std::size_t some = std::min(query.range.end - query.range.begin, k_most_ids);
-            prefetch(stop.level->boxes(query.range.begin), some * sizeof(PackedBox));
-            prefetch(stop.level->ids(query.range.begin), some * sizeof(std::uint32_t));
+            const Level& level = query.cells.level();
+            for (std::size_t c = 0; c < query.cells.stops().size(); ++c) {
+                const Range range = query.ranges[c] = level.range(query.cells.stops()[c].number);
+                const std::size_t some = std::min(range.end - range.begin, k_most_ids);
+                prefetch(level.boxes(range.begin), some * sizeof(PackedBox));
+                prefetch(level.ids(range.begin), some * sizeof(std::uint32_t));
+            }
         }
-        const auto cull = [&](Query& query) {
-            const Stop& stop = query.cells.stop();
-            const unsigned some = std::min(query.range.end - query.range.begin, k_most_ids);
-            query.count = backend.cull(stop.level->boxes(query.range.begin), stop.level->ids(query.range.begin), some,
-                                       stop.cull.above, stop.cull.seen, query.ids.data());
-            query.range.begin += some;
+        const auto test = [&](Query& query) {
             query.shortlist.add(query.ids.data(), query.count, query.cells.covered());
+            test_triangles<Kernel>(query.search, query.ids.data(), query.count, options, counters, query.collector);
+            query.count = 0;
         };
         for (std::size_t i = 0; i < under_way; ++i) {
             Query& query = *active[i];
             if (query.cells.all()) continue;
-            cull(query);
-            for (unsigned k = 0; k < query.count; ++k)
-                prefetch(&scene.coordinates[9 * std::size_t{query.ids[k]}], 9 * sizeof(Scalar));
+            const Level& level = query.cells.level();
+            for (std::size_t c = 0; c < query.cells.stops().size(); ++c) {
+                const Cull& cull = query.cells.stops()[c].cull;
+                for (std::uint32_t begin = query.ranges[c].begin; begin < query.ranges[c].end;) {
+                    const unsigned some = std::min(query.ranges[c].end - begin, k_most_ids);
+                    if (query.count + some > k_most_ids) test(query);
+                    query.count += backend.cull(level.boxes(begin), level.ids(begin), some, cull.above, cull.seen,
+                                                query.ids.data() + query.count);
+                    begin += some;
+                }
+            }
+            for (unsigned k = 0; k < query.count; ++k) prefetch(&scene.coordinates[9 * std::size_t{query.ids[k]}], 9 * sizeof(Scalar));
         }
         for (std::size_t i = 0; i < under_way; ++i) {
             Query& query = *active[i];
-            if (query.cells.all()) {
-                each_triangle(scene, [&](const std::uint32_t* ids, unsigned some) {
-                    query.shortlist.add(ids, some, true);
-                    test_triangles<Kernel>(query.search, ids, some, options, counters, query.collector);
-                });
+            if (!query.cells.all()) {
+                test(query);
                 continue;
             }
-            for (;;) {
-                test_triangles<Kernel>(query.search, query.ids.data(), query.count, options, counters, query.collector);
-                if (query.range.begin == query.range.end) break;
-                cull(query);  // of a crowded cell
-            }
+            each_triangle(scene, query.cells.level().first_id(), [&](std::uint32_t* ids, unsigned some) {
+                query.shortlist.add(ids, some, true);
+                test_triangles<Kernel>(query.search, ids, some, options, counters, query.collector);
+            });
         }
     }
 }

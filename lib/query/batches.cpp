@@ -31,7 +31,7 @@ std::size_t first_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std
         scene, last - first, options, counters,
         [&](std::size_t i, Path& path) { return path_of(ends, first + i, path, invalid); },
         [&](const Path& path) { return First<Scalar>(scene, path, counters); },
-        [&](std::size_t i, const auto* query) {
+        [&](std::size_t i, auto* query) {
             std::optional<Answer>& to = out[first + i];
             to.reset();
             if (query == nullptr || !query->collector.found()) return;

@@ -54,9 +54,9 @@ int crossings_of(const Scene<Scalar>& scene, const Path& path, QueryCounters& co
     int sum = 0;
     Search<Scalar> search(scene, path, Sides::both);
     // The move is infinitesimal: a path that does not even touch a closed triangle does not cross it when moved either.
-    visit_near(search, true, [] { return 1.0; }, counters, [&](const std::uint32_t* ids, unsigned count, bool) {
+    visit_near(search, true, [] { return 1.0; }, counters, [&](std::uint32_t* ids, unsigned count, bool) {
         Ids left;
-        const unsigned found = scene.backend->refine(search.probe, scene.coordinates.data(), ids, count, left.data());
+        const unsigned found = scene.backend->refine(search.probe(Certified::unit), scene.coordinates.data(), ids, count, left.data());
         counters.triangles += count;
         for (unsigned i = 0; i < found; ++i) {
             const Corners corners = scene.corners(left[i]);

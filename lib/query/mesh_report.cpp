@@ -10,7 +10,7 @@
 
 #include <exact/decide.h>
 #include <grid/grid.h>
-#include <grid/walk.h>
+#include <grid/grid.h>
 
 namespace pierce {
 
@@ -219,11 +219,10 @@ class Reporter {
                 const Steps at = level.raster().steps(positions_[v], positions_[v]);
                 if (level.raster().outside(at)) continue;
                 const Cell cell = level.raster().cell_of(at.low);
-                BlockWalk walk;
-                walk.start(level, at, cell, cell);
-                Stop stop;
-                if (!walk.next(stop)) continue;
-                const Range range = level.range(stop.number);
+                const Node* brick = level.find(cell).brick;
+                const std::uint64_t bit = Level::bit_of(cell);
+                if (brick == nullptr || (brick->parts & bit) == 0) continue;
+                const Range range = level.range(Level::number(*brick, bit));
                 for (std::uint32_t i = range.begin; i < range.end && !found; ++i) found = lies_on(v, border_[order[*level.ids(i)]]);
             }
             if (found) note(report_.t_junctions, report_.t_junction_list, v);

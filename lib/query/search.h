@@ -19,57 +19,76 @@ struct Shortlist {
         count += number;
     }
 
-    std::array<std::uint32_t, k_most> ids;
+    std::array<std::uint32_t, k_most + 8> ids;
     unsigned count = 0;
     bool complete = true;
 };
 
 template <class Scalar>
-struct Search {
-    Search(const Scene<Scalar>& scene_, const Path& path_, Sides sides) : scene(scene_), path(path_) {
-        const double scale = static_cast<double>(scene.scale);
-        double reach = 0;
-        double furthest = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double d = (path.to[k] - path.from[k]) * scale;
-            probe.origin[k] = static_cast<Scalar>(path.from[k]);
-            probe.direction[k] = static_cast<float>(d);
-            reach = std::max(reach, std::abs(d));
-            furthest = std::max({furthest, std::abs(path.from[k]), std::abs(path.to[k])});
-        }
-        probe.origin[3] = 0;
-        probe.direction[3] = 0;
-        probe.scale = scene.scale;
-        probe.reach = static_cast<float>(reach);
-        probe.noise = 0;
-        probe.ends = 1;
-        probe.unit = 0x1p-24F;
-        probe.front = sides != Sides::back ? ~0U : 0U;
-        probe.back = sides != Sides::front ? ~0U : 0U;
-        // A point of the path, computed in double, is within 2^-50 of the largest coordinate of the exact one; rounded to the
-        // scalar it moves by at most half a unit of that, or by half of the least denormal number.
-        rounding = (furthest * (0x1p-50 + 0.5 * static_cast<double>(std::numeric_limits<Scalar>::epsilon())) +
-                    static_cast<double>(std::numeric_limits<Scalar>::denorm_min()));
-        is_far = reach > k_far;
-    }
-
-    /// From here on the kernels work around the path's point at `fraction`: for a long segment, errors are those of the cell's
-    /// size and not of the segment's.
-    void move_to(double fraction) {
-        for (std::size_t k = 0; k < 3; ++k)
-            probe.origin[k] = static_cast<Scalar>(path.from[k] + fraction * (path.to[k] - path.from[k]));
-        probe.noise = static_cast<float>(rounding * static_cast<double>(scene.scale) * 1.0001);
-        probe.ends = 0;
-    }
-
-    /// In units of cells. Up to here the start itself is near enough: 48 * 2^-24 * 32^2 is a few thousandths of a cell.
-    static constexpr double k_far = 32;
+class Search {
+  public:
+    Search(const Scene<Scalar>& scene_, const Path& path_, Sides sides) : scene(scene_), path(path_), sides_(sides) {}
 
     const Scene<Scalar>& scene;
     const Path path;
-    Probe<Scalar> probe;
-    double rounding;  ///< how far a point of the path may be off in each coordinate when it is rounded to the scalar
-    bool is_far;
+
+    /// What the wide kernels ask with, in bounds of this unit. Made when it is first asked for: most short segments never come near a
+    /// triangle.
+    const Probe<Scalar>& probe(float unit) {
+        prepare();
+        probe_.unit = unit;
+        return probe_;
+    }
+
+    /// From here on the kernels work around the path's point at `fraction`, if the path is so long that the errors would be those of
+    /// its length and not of a cell's size.
+    void come_to(double fraction) {
+        prepare();
+        if (!(probe_.reach > k_far)) return;
+        for (std::size_t k = 0; k < 3; ++k)
+            probe_.origin[k] = static_cast<Scalar>(path.from[k] + fraction * (path.to[k] - path.from[k]));
+        probe_.noise = static_cast<float>(rounding() * static_cast<double>(scene.scale) * 1.0001);
+        probe_.ends = 0;
+    }
+
+    /// How far a point of the path may be off in each coordinate when it is rounded to the scalar: computed in double it is within 2^-50 of
+    /// the largest coordinate of the exact one; rounded it moves by at most half a unit of that, or by half of the least
+    /// denormal number.
+    [[nodiscard]] double rounding() const {
+        double furthest = 0;
+        for (std::size_t k = 0; k < 3; ++k) furthest = std::max({furthest, std::abs(path.from[k]), std::abs(path.to[k])});
+        return furthest * (0x1p-50 + 0.5 * static_cast<double>(std::numeric_limits<Scalar>::epsilon())) +
+               static_cast<double>(std::numeric_limits<Scalar>::denorm_min());
+    }
+
+  private:
+    // In units of cells. Up to here the start itself is near enough: 48 * 2^-24 * 32^2 is a few thousandths of a cell.
+    static constexpr float k_far = 32;
+
+    void prepare() {
+        if (prepared_) return;
+        prepared_ = true;
+        const double scale = static_cast<double>(scene.scale);
+        double reach = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double d = (path.to[k] - path.from[k]) * scale;
+            probe_.origin[k] = static_cast<Scalar>(path.from[k]);
+            probe_.direction[k] = static_cast<float>(d);
+            reach = std::max(reach, std::abs(d));
+        }
+        probe_.origin[3] = 0;
+        probe_.direction[3] = 0;
+        probe_.scale = scene.scale;
+        probe_.reach = static_cast<float>(reach);
+        probe_.noise = 0;
+        probe_.ends = 1;
+        probe_.front = sides_ != Sides::back ? ~0U : 0U;
+        probe_.back = sides_ != Sides::front ? ~0U : 0U;
+    }
+
+    Probe<Scalar> probe_;
+    Sides sides_;
+    bool prepared_ = false;
 };
 
 }  // namespace pierce::detail

@@ -59,13 +59,14 @@ struct Certified {
 
 /// Asks the kernels about a list of triangles and gives the collector those that the path hits under `options`.
 template <class Kernel, class Scalar, class Collector>
-void test_triangles(const Search<Scalar>& search, const std::uint32_t* ids, unsigned count, const QueryOptions& options,
+void test_triangles(Search<Scalar>& search, std::uint32_t* ids, unsigned count, const QueryOptions& options,
                     QueryCounters& counters, Collector& collector) {
     const Scene<Scalar>& scene = search.scene;
+    const Probe<Scalar>& probe = search.probe(Kernel::unit);
     std::array<std::uint32_t, 64> left;
     for (; count > 0;) {
         const unsigned some = std::min<unsigned>(count, left.size());
-        const unsigned found = scene.backend->refine(search.probe, scene.coordinates.data(), ids, some, left.data());
+        const unsigned found = scene.backend->refine(probe, scene.coordinates.data(), ids, some, left.data());
         counters.triangles += some;
         ids += some;
         count -= some;
@@ -95,9 +96,8 @@ void test_triangles(const Search<Scalar>& search, const std::uint32_t* ids, unsi
 template <class Kernel, class Scalar, class Collector>
 void traverse(Search<Scalar>& search, const QueryOptions& options, QueryCounters& counters, Collector& collector,
               Shortlist* shortlist = nullptr) {
-    search.probe.unit = Kernel::unit;
     const auto limit = [&] { return std::min(collector.limit(), options.max_fraction); };
-    visit_near(search, Collector::once, limit, counters, [&](const std::uint32_t* ids, unsigned count, bool covered) {
+    visit_near(search, Collector::once, limit, counters, [&](std::uint32_t* ids, unsigned count, bool covered) {
         if (shortlist != nullptr) shortlist->add(ids, count, covered);
         test_triangles<Kernel>(search, ids, count, options, counters, collector);
     });

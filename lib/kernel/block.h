@@ -1,0 +1,182 @@
+// The cells of a short segment, found without a branch for each axis: every cell that holds something and that the segment's box shares
+// a step with. Nothing is computed along the way, so nothing can be missed (grid/raster.h).
+//
+// As lanes.h: for any instruction set, included by backend_*.cpp, with nothing that other files could share.
+#pragma once
+
+#include <kernel/lanes.h>
+
+namespace pierce::detail {
+
+namespace {
+
+using Double4 [[gnu::vector_size(32)]] = double;
+using Int4 [[gnu::vector_size(16)]] = int;
+
+// For machines without an instruction for it (Warren 2002, Hacker's Delight, 5-1).
+[[gnu::always_inline]] inline unsigned count_bits_by_halves(std::uint64_t x) {
+    x -= x >> 1 & 0x5555555555555555;
+    x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
+    x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0f;
+    return static_cast<unsigned>(x * 0x0101010101010101 >> 56);
+}
+
+/// Which cells of a brick have a place along an axis from one to another, `from + 4 * to`; and where a cell is in its brick.
+struct Places {
+    constexpr Places() {
+        for (int from = 0; from < 4; ++from)
+            for (int to = from; to < 4; ++to)
+                for (int i = 0; i < 64; ++i) {
+                    const std::uint64_t bit = std::uint64_t{1} << i;
+                    const auto within = [&](int place) { return place >= from && place <= to; };
+                    if (within(i & 3)) x[from + 4 * to] |= bit;
+                    if (within(i >> 2 & 3)) y[from + 4 * to] |= bit;
+                    if (within(i >> 4)) z[from + 4 * to] |= bit;
+                }
+        for (int i = 0; i < 64; ++i) {
+            cell[i][0] = i & 3;
+            cell[i][1] = i >> 2 & 3;
+            cell[i][2] = i >> 4;
+        }
+    }
+    std::uint64_t x[16] = {};
+    std::uint64_t y[16] = {};
+    std::uint64_t z[16] = {};
+    int cell[64][4] = {};
+};
+constexpr Places k_places;
+
+/// A segment's box in a level, in steps.
+struct Reach {
+    Int4 first_step;
+    Int4 last_step;
+};
+
+// The brick of cells around a place, in bricks; null where it is empty.
+[[gnu::always_inline]] inline const Node* find_brick(const PackedLevel& level, int x, int y, int z, unsigned (*count_bits)(std::uint64_t)) {
+    const int shift = level.root_shift - 2;
+    const Node* node = level.nodes + (static_cast<std::size_t>(x >> shift) * level.strides[0] +
+                                      static_cast<std::size_t>(y >> shift) * level.strides[1] +
+                                      static_cast<std::size_t>(z >> shift) * level.strides[2]);
+    for (int down = shift - 2; down >= 0; down -= 2) {
+        const std::uint64_t bit = std::uint64_t{1} << ((x >> down & 3) | (y >> down & 3) << 2 | (z >> down & 3) << 4);
+        if ((node->parts & bit) == 0) return nullptr;
+        node = level.nodes + (node->first + count_bits(node->parts & (bit - 1)));
+    }
+    return node;
+}
+
+}  // namespace
+
+/// The stops in one brick, behind those that are there already; returns how many there are then, -1 if that is more than `k_most_block`.
+template <class Wide>
+[[gnu::always_inline]] inline int stops_in_brick(const Node& brick, const Int4& corner, const Reach& reach, Stop* stops, int found) {
+    const Int4 zero = {0, 0, 0, 0};
+    const Int4 three = {3, 3, 3, 3};
+    const Int4 first = reach.first_step >> k_step_bits;
+    Int4 lowest = first - corner;
+    Int4 highest = (reach.last_step >> k_step_bits) - corner;
+    lowest = lowest > zero ? lowest : zero;
+    highest = highest < three ? highest : three;
+    const Int4 places = lowest + (highest << 2);
+    std::uint64_t cells = brick.parts & k_places.x[places[0]] & k_places.y[places[1]] & k_places.z[places[2]];
+    if (found + static_cast<int>(Wide::count_bits(cells)) > k_most_block) return -1;
+    for (; cells != 0; cells &= cells - 1) {
+        const int place = __builtin_ctzll(cells);
+        Int4 cell;
+        __builtin_memcpy(&cell, k_places.cell[place], sizeof cell);
+        cell += corner;
+        const Int4 corner_step = cell << k_step_bits;
+        // Bytes as in a packed box, cut to the range of one by saturation: beyond it they refuse nothing.
+        const Int4 unused = {0, 0, 0, 127};
+        const Int4 upper = (reach.last_step - corner_step) | unused;
+        const Int4 lower = (corner_step - reach.first_step) | unused;
+        // Boxes that the cell before this one lists too, along an axis where that is one of the query's as well, are left to that
+        // one: it leaves them whenever this one would, as the query's box then reaches to its end.
+        const std::uint64_t seen = Wide::negative(first - cell);
+        const std::uint64_t before_it = brick.parts & ((std::uint64_t{1} << place) - 1);
+        stops[found++] = {brick.first + Wide::count_bits(before_it), {Wide::pack(upper, lower), seen << 24}};
+    }
+    return found;
+}
+
+/// For the segment between two points, given by halves of their coordinates: how many cells hold something, and which boxes are to be left
+/// in them, each by one cell only. -1: more than `k_most_block`, or too far apart to be looked at.
+template <class Wide>
+[[gnu::always_inline]] inline int block(const PackedLevel& level, const double* half_from, const double* half_to, Stop* stops) {
+    Double4 low;
+    Double4 scale;
+    Double4 most;
+    Double4 from;
+    Double4 to;
+    __builtin_memcpy(&low, level.half_low, sizeof low);
+    __builtin_memcpy(&scale, level.scale, sizeof scale);
+    __builtin_memcpy(&most, level.most, sizeof most);
+    __builtin_memcpy(&from, half_from, sizeof from);
+    __builtin_memcpy(&to, half_to, sizeof to);
+    // Raster::place, operation for operation, so that it is the same function for boxes and for queries.
+    from = (from - low) * scale;
+    to = (to - low) * scale;
+    // What lies outside of the cells counts as on their border; before that as -1 or `most`, for the one look that says so.
+    const Double4 before = {-1, -1, -1, -1};
+    Double4 least = from;
+    Wide::lower(least, to);
+    Wide::raise(least, before);
+    Wide::lower(least, most);
+    Double4 greatest = from;
+    Wide::raise(greatest, to);
+    Wide::raise(greatest, before);
+    Wide::lower(greatest, most);
+    const Int4 one = {1, 1, 1, 1};
+    const Int4 zero = {0, 0, 0, 0};
+    const Int4 end = __builtin_convertvector(most, Int4) - one;
+    Reach reach;
+    reach.first_step = __builtin_convertvector(least, Int4);
+    reach.last_step = __builtin_convertvector(greatest, Int4);
+    if (Wide::negative(reach.last_step | (end - reach.first_step)) != 0) return 0;
+    reach.first_step = reach.first_step > zero ? reach.first_step : zero;
+    reach.last_step = reach.last_step < end ? reach.last_step : end;
+    const Int4 first_brick = reach.first_step >> (k_step_bits + 2);
+    const Int4 more = (reach.last_step >> (k_step_bits + 2)) - first_brick;
+    const int x = first_brick[0];
+    const int y = first_brick[1];
+    const int z = first_brick[2];
+    if (Wide::negative(zero - more) == 0) {  // nearly always
+        const Node* brick = find_brick(level, x, y, z, Wide::count_bits);
+        if (brick == nullptr || brick->parts == 0) return 0;
+        return stops_in_brick<Wide>(*brick, first_brick << 2, reach, stops, 0);
+    }
+    if (Wide::negative(one - more) != 0) return -1;
+    int found = 0;
+    for (int i = 0; i < 8; ++i) {
+        const Int4 brick_at = first_brick + Int4{i & 1, i >> 1 & 1, i >> 2, 0};
+        if (Wide::negative(first_brick + more - brick_at) != 0) continue;
+        const Node* brick = find_brick(level, brick_at[0], brick_at[1], brick_at[2], Wide::count_bits);
+        if (brick == nullptr || brick->parts == 0) continue;
+        found = stops_in_brick<Wide>(*brick, brick_at << 2, reach, stops, found);
+        if (found < 0) return -1;
+    }
+    return found;
+}
+
+/// All of `block` and `cull` in one call: the ids that the cells leave, and how many cells they are. -1: too many cells, or what they
+/// list is more than `room`.
+template <class Wide>
+[[gnu::always_inline]] inline int look(const PackedLevel& level, const double* half_from, const double* half_to, std::uint32_t* out,
+                                       unsigned room, unsigned* cells) {
+    Stop stops[k_most_block];
+    const int found = block<Wide>(level, half_from, half_to, stops);
+    *cells = 0;
+    if (found <= 0) return found;
+    unsigned left = 0;
+    for (int i = 0; i < found; ++i) {
+        const std::uint32_t begin = level.starts[stops[i].number];
+        const std::uint32_t count = level.starts[stops[i].number + 1] - begin;
+        if (count > room - left) return -1;
+        left += cull<Wide>(level.boxes + begin, level.ids + begin, count, stops[i].cull.above, stops[i].cull.seen, out + left);
+    }
+    *cells = static_cast<unsigned>(found);
+    return static_cast<int>(left);
+}
+
+}  // namespace pierce::detail

@@ -1,0 +1,53 @@
+// What the grid writes and the wide kernels read: one level of cells as plain memory. No functions, as the kernels' files may share none.
+#pragma once
+
+#include <cstdint>
+
+namespace pierce::detail {
+
+/// Steps to a cell, along each axis: what a packed box is measured in, counted from the cell's lower corner.
+constexpr int k_step_bits = 7;
+constexpr int k_steps = 1 << k_step_bits;
+
+/// The part of a box in one cell. Bytes 0-2 hold its lower corner, bytes 4-6 its upper one, negated; byte 3 has bit k set where the
+/// cell before this one along axis k lists the box too, byte 7 where the one after it does. Each is a signed byte. So for a box and
+/// a `Cull`, all that makes them disjoint is that a byte of the one is larger than that of the other.
+using PackedBox = std::uint64_t;
+
+/// What packed boxes are compared with: a box is of no use if one of its bytes, as signed numbers, is larger than that of `above`, or
+/// if it has a bit of `seen`.
+struct Cull {
+    std::uint64_t above;
+    std::uint64_t seen;
+};
+
+/// Four by four by four parts, and which of them hold anything.
+struct Node {
+    std::uint64_t parts = 0;  ///< bit x + 4 y + 16 z
+    std::uint32_t first = 0;  ///< of a brick: how many non-empty cells come before its own; else the place of its first child
+    std::uint32_t empty = 0;  ///< of a root without parts: roots less than this away, in the maximum norm, have none either
+};
+
+/// See grid/level.h. The arrays have a fourth entry, so that four lanes can be read: it is 0, and 1 for `most`.
+struct PackedLevel {
+    double half_low[4] = {0, 0, 0, 0};
+    double scale[4] = {0, 0, 0, 0};    ///< steps for each half unit, see grid/raster.h
+    double most[4] = {0, 0, 0, 1};     ///< steps along each axis
+    std::uint32_t strides[4] = {0, 0, 0, 0};
+    const Node* nodes = nullptr;       ///< the roots, then layer by layer, last the bricks
+    const std::uint32_t* starts = nullptr;
+    const PackedBox* boxes = nullptr;
+    const std::uint32_t* ids = nullptr;
+    int root_shift = 2;                ///< a root is of 2^root_shift cells along each axis
+};
+
+/// Where a query has come to: a cell that holds something, and which boxes it is to leave there.
+struct Stop {
+    std::uint32_t number;  ///< of the cell, see Level::range
+    Cull cull;
+};
+
+/// A short segment's cells are asked for together, if they are not more than this. Measured: tests/bench/run.
+constexpr int k_most_block = 8;
+
+}  // namespace pierce::detail
