@@ -15,7 +15,7 @@ struct Steps {
     std::array<int, 3> high;
 };
 
-/// A box is listed in the cells that it comes within this many steps of (grid/walk.h says why).
+/// A box is listed in the cells that it comes within this many steps of, and lies at least as far inside of the grid (kernel/walk.h says why).
 constexpr int k_margin = 1;
 
 namespace packing {
@@ -40,23 +40,5 @@ namespace packing {
     }
     return packed;
 }
-
-/// Leaves the boxes that share a step with `box` in a cell.
-[[nodiscard, gnu::always_inline]] inline Cull cull_of(const Steps& box, const std::array<int, 3>& cell) {
-    Cull cull{packing::byte(127, 3) | packing::byte(127, 7), 0};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const int corner = cell[k] * k_steps;
-        const int at = static_cast<int>(k);
-        cull.above |= packing::byte(packing::clamped(box.high[k] - corner), at);
-        cull.above |= packing::byte(-packing::clamped(box.low[k] - corner), at + 4);
-    }
-    return cull;
-}
-
-/// Leaves all boxes but those that the cell listed from which a walk came, by a step of +1 or -1 along an axis.
-[[nodiscard]] inline Cull cull_seen(std::size_t axis, int step) {
-    return {0x7f7f7f7f7f7f7f7f, packing::byte(1 << axis, step > 0 ? 3 : 7)};
-}
-[[nodiscard]] inline Cull cull_none() { return {0x7f7f7f7f7f7f7f7f, 0}; }
 
 }  // namespace pierce::detail

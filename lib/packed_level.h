@@ -38,6 +38,7 @@ struct PackedLevel {
     const std::uint32_t* starts = nullptr;
     const PackedBox* boxes = nullptr;
     const std::uint32_t* ids = nullptr;
+    int cells[4] = {1, 1, 1, 1};
     int root_shift = 2;                ///< a root is of 2^root_shift cells along each axis
 };
 
@@ -45,7 +46,28 @@ struct PackedLevel {
 struct Stop {
     std::uint32_t number;  ///< of the cell, see Level::range
     Cull cull;
+    double fraction;       ///< of a walk: at which it enters the cell
 };
+
+/// A segment on its way through a level (kernel/walk.h), all in cells. The arrays have a fourth entry for the lanes.
+struct Walk {
+    double from[4] = {0, 0, 0, 0};  ///< the place at fraction s is from + s d
+    double d[4] = {0, 0, 0, 0};
+    double inverse[4];
+    double bias[4];
+    double wall[4];                 ///< the next one along each axis
+    double leave[4];                ///< the fraction at which it is reached
+    double enter;                   ///< at which the line has come into the cell
+    double last;
+    std::uint64_t unseen;           ///< of the cell: `Cull::seen` for the boxes that the one before lists, too
+    int cell[4] = {0, 0, 0, 0};
+    int step[4];                    ///< -1, 0 or 1
+    bool once;
+    bool over;
+};
+
+/// `never`: the segment is too long to be followed.
+enum class Walking : std::uint8_t { no, along, never };
 
 /// A short segment's cells are asked for together, if they are not more than this. Measured: tests/bench/run.
 constexpr int k_most_block = 8;

@@ -18,10 +18,10 @@ namespace {
 constexpr double k_cell = 2.5;
 // The next level's cells are this many times as wide; a box goes to the first level whose cells are not much smaller than it.
 constexpr double k_next_level = 4;
-constexpr double k_largest_box = 2;
+constexpr double k_largest_box = 1.3;
 constexpr std::size_t k_most_levels = 24;
 constexpr double k_finest = 0x1p24;       ///< cells at the usual size are this many times as wide as those of the finest level
-constexpr double k_crowded = 48;          ///< see crowd()
+constexpr double k_crowded = 160;         ///< see crowd()
 constexpr double k_most_extra = 0.5;  ///< entries for each triangle that is there already, rather than a level more
 
 template <class Scalar>

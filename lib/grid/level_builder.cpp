@@ -260,6 +260,7 @@ Level LevelBuilder::build(const Executor& executor) {
         level.packed_.half_low[k] = raster_.half_low(k);
         level.packed_.scale[k] = raster_.scale(k);
         level.packed_.most[k] = raster_.most(k);
+        level.packed_.cells[k] = raster_.cells()[k];
         level.packed_.strides[k] = static_cast<std::uint32_t>(strides_[k]);  // of fewer roots than triangles
     }
     level.packed_.nodes = level.nodes_.data();

@@ -14,8 +14,10 @@ Raster::Raster(const Box& box, double size) {
         half_cell = std::max({half_cell, half_extent / (k_most_cells - 1), 0x1p-1000});
         cells_[k] = std::min(static_cast<int>(half_extent / half_cell) + 1, k_most_cells);
         scale_[k] = k_steps / half_cell;
-        // The upper end of the box must lie within the last cell as step() computes it.
-        while ((0.5 * box.high[k] - half_low_[k]) * scale_[k] >= cells_[k] * k_steps) ++cells_[k];
+        // As computed, the box must lie a margin inside of the cells, whatever is absorbed.
+        const double half_low = half_low_[k];
+        for (double back = k_margin / scale_[k]; place(k, half_low) < k_margin; back *= 2) half_low_[k] = half_low - back;
+        while (place(k, 0.5 * box.high[k]) >= cells_[k] * k_steps - k_margin) ++cells_[k];
         most_[k] = cells_[k] * k_steps;
     }
 }

@@ -2,7 +2,7 @@
 #include <immintrin.h>
 
 #include <kernel/backends.h>
-#include <kernel/block.h>
+#include <kernel/walk.h>
 
 namespace pierce::detail {
 
@@ -104,6 +104,14 @@ int look_avx2(const PackedLevel& level, const double* half_from, const double* h
     return look<Avx2>(level, half_from, half_to, out, room, cells);
 }
 
+Walking start_walk_avx2(const PackedLevel& level, const double* half_from, const double* half_to, double limit, bool once, Walk& walk) {
+    return start_walk<Avx2>(level, half_from, half_to, limit, once, walk);
+}
+
+unsigned walk_avx2(const PackedLevel& level, Walk& walk, double limit, Stop* stops, unsigned room) {
+    return walk_on<Avx2>(level, walk, limit, stops, room);
+}
+
 unsigned cull_avx2(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
                    std::uint32_t* out) {
     return cull<Avx2>(boxes, ids, count, above, seen, out);
@@ -116,6 +124,6 @@ unsigned refine_avx2(const Probe<Scalar>& probe, const Scalar* corners, std::uin
 
 }  // namespace
 
-const Backend k_avx2 = {"avx2", block_avx2, look_avx2, cull_avx2, refine_avx2<float>, refine_avx2<double>};
+const Backend k_avx2 = {"avx2", block_avx2, look_avx2, start_walk_avx2, walk_avx2, cull_avx2, refine_avx2<float>, refine_avx2<double>};
 
 }  // namespace pierce::detail

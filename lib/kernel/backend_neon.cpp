@@ -2,7 +2,7 @@
 #include <arm_neon.h>
 
 #include <kernel/backends.h>
-#include <kernel/block.h>
+#include <kernel/walk.h>
 
 namespace pierce::detail {
 
@@ -76,6 +76,14 @@ int look_neon(const PackedLevel& level, const double* half_from, const double* h
     return look<Neon>(level, half_from, half_to, out, room, cells);
 }
 
+Walking start_walk_neon(const PackedLevel& level, const double* half_from, const double* half_to, double limit, bool once, Walk& walk) {
+    return start_walk<Neon>(level, half_from, half_to, limit, once, walk);
+}
+
+unsigned walk_neon(const PackedLevel& level, Walk& walk, double limit, Stop* stops, unsigned room) {
+    return walk_on<Neon>(level, walk, limit, stops, room);
+}
+
 unsigned cull_neon(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
                    std::uint32_t* out) {
     return cull<Neon>(boxes, ids, count, above, seen, out);
@@ -88,6 +96,6 @@ unsigned refine_neon(const Probe<Scalar>& probe, const Scalar* corners, std::uin
 
 }  // namespace
 
-const Backend k_neon = {"neon", block_neon, look_neon, cull_neon, refine_neon<float>, refine_neon<double>};
+const Backend k_neon = {"neon", block_neon, look_neon, start_walk_neon, walk_neon, cull_neon, refine_neon<float>, refine_neon<double>};
 
 }  // namespace pierce::detail

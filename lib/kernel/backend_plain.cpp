@@ -1,6 +1,6 @@
 // One triangle at a time, for machines whose instruction set has no file of its own, and to compare the others with; see lanes.h.
 #include <kernel/backends.h>
-#include <kernel/block.h>
+#include <kernel/walk.h>
 
 namespace pierce::detail {
 
@@ -58,6 +58,14 @@ int look_plain(const PackedLevel& level, const double* half_from, const double* 
     return look<Plain>(level, half_from, half_to, out, room, cells);
 }
 
+Walking start_walk_plain(const PackedLevel& level, const double* half_from, const double* half_to, double limit, bool once, Walk& walk) {
+    return start_walk<Plain>(level, half_from, half_to, limit, once, walk);
+}
+
+unsigned walk_plain(const PackedLevel& level, Walk& walk, double limit, Stop* stops, unsigned room) {
+    return walk_on<Plain>(level, walk, limit, stops, room);
+}
+
 unsigned cull_plain(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
                     std::uint32_t* out) {
     return cull<Plain>(boxes, ids, count, above, seen, out);
@@ -70,6 +78,6 @@ unsigned refine_plain(const Probe<Scalar>& probe, const Scalar* corners, std::ui
 
 }  // namespace
 
-const Backend k_plain = {"plain", block_plain, look_plain, cull_plain, refine_plain<float>, refine_plain<double>};
+const Backend k_plain = {"plain", block_plain, look_plain, start_walk_plain, walk_plain, cull_plain, refine_plain<float>, refine_plain<double>};
 
 }  // namespace pierce::detail

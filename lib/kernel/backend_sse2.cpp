@@ -2,7 +2,7 @@
 #include <emmintrin.h>
 
 #include <kernel/backends.h>
-#include <kernel/block.h>
+#include <kernel/walk.h>
 
 namespace pierce::detail {
 
@@ -71,6 +71,14 @@ int look_sse2(const PackedLevel& level, const double* half_from, const double* h
     return look<Sse2>(level, half_from, half_to, out, room, cells);
 }
 
+Walking start_walk_sse2(const PackedLevel& level, const double* half_from, const double* half_to, double limit, bool once, Walk& walk) {
+    return start_walk<Sse2>(level, half_from, half_to, limit, once, walk);
+}
+
+unsigned walk_sse2(const PackedLevel& level, Walk& walk, double limit, Stop* stops, unsigned room) {
+    return walk_on<Sse2>(level, walk, limit, stops, room);
+}
+
 unsigned cull_sse2(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
                    std::uint32_t* out) {
     return cull<Sse2>(boxes, ids, count, above, seen, out);
@@ -83,6 +91,6 @@ unsigned refine_sse2(const Probe<Scalar>& probe, const Scalar* corners, std::uin
 
 }  // namespace
 
-const Backend k_sse2 = {"sse2", block_sse2, look_sse2, cull_sse2, refine_sse2<float>, refine_sse2<double>};
+const Backend k_sse2 = {"sse2", block_sse2, look_sse2, start_walk_sse2, walk_sse2, cull_sse2, refine_sse2<float>, refine_sse2<double>};
 
 }  // namespace pierce::detail

@@ -95,7 +95,7 @@ template <class Wide>
         // one: it leaves them whenever this one would, as the query's box then reaches to its end.
         const std::uint64_t seen = Wide::negative(first - cell);
         const std::uint64_t before_it = brick.parts & ((std::uint64_t{1} << place) - 1);
-        stops[found++] = {brick.first + Wide::count_bits(before_it), {Wide::pack(upper, lower), seen << 24}};
+        stops[found++] = {brick.first + Wide::count_bits(before_it), {Wide::pack(upper, lower), seen << 24}, 0};
     }
     return found;
 }

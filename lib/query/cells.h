@@ -19,34 +19,14 @@ struct Halves {
     std::array<double, 4> to = {0, 0, 0, 0};
 };
 
-enum class Walking : std::uint8_t { no, along, never };
-
-/// Starts the walk of a path through a level, unless it does not come there before `limit`. `never`: it is too long to be followed.
-template <class Scalar>
-[[nodiscard]] Walking start_walk(const Search<Scalar>& search, const Halves& half, const Level& level, double limit, bool once,
-                                 LineWalk& walk) {
-    // In cells of the finest level. What the walk is proved for (walk.h): with the cells of a level, 2^20, its M is below 2^31.
-    constexpr double k_longest = 0x1p30;
-    const Raster& finest = search.scene.grid.levels().front().raster();
-    const Raster& raster = level.raster();
-    Point from;
-    Point to;
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (std::abs(half.to[k] - half.from[k]) > k_longest * finest.half_size(k)) return Walking::never;
-        from[k] = raster.place(k, half.from[k]);
-        to[k] = raster.place(k, half.to[k]);
-    }
-    const Line line(from, to, raster);
-    if (line.empty() || limit < line.first) return Walking::no;
-    walk.start(level, line, once);
-    return Walking::along;
-}
-
 /// Whether what the cells of a walk leave holds for the path's rounded points as well: they leave the line by less than half a step.
 template <class Scalar>
 [[nodiscard]] bool covers_points(const Search<Scalar>& search, const Level& level) {
     return search.rounding() * (4 * k_steps) < level.raster().least_size();
 }
+
+/// Cells of a walk that are asked for together: more use the lanes and the memory better, but go beyond the hit. Measured: tests/bench/run.
+constexpr unsigned k_most_walk = 2;
 
 /// Room for what a few cells leave.
 constexpr unsigned k_most_ids = 256;
@@ -74,24 +54,25 @@ class Cells {
     /// The next cells that hold something: `stops` of `level`. `limit`, a fraction of the path, says how far they are of use.
     bool next(double limit) {
         const std::span<const Level> levels = search_->scene.grid.levels();
+        const Backend& backend = *search_->scene.backend;
         for (;;) {
             if (walking_ == Walking::along) {
-                if (walk_.next(limit, stops_[0])) {
-                    search_->come_to(walk_.fraction());
-                    count_ = 1;
+                count_ = backend.walk(level_->packed(), walk_, limit, stops_.data(), k_most_walk);
+                if (count_ > 0) {
+                    search_->come_to(stops_[0].fraction);
                     return true;
                 }
                 walking_ = Walking::no;
             }
             if (at_ == levels.size()) return false;
             level_ = &levels[at_++];
-            const int found = search_->scene.backend->block(level_->packed(), half_.from.data(), half_.to.data(), stops_.data());
+            const int found = backend.block(level_->packed(), half_.from.data(), half_.to.data(), stops_.data());
             if (found > 0) {
                 count_ = static_cast<unsigned>(found);
                 return true;
             }
             if (found == 0) continue;
-            walking_ = start_walk(*search_, half_, *level_, limit, once_, walk_);
+            walking_ = backend.start_walk(level_->packed(), half_.from.data(), half_.to.data(), limit, once_, walk_);
             if (walking_ == Walking::along) covered_ = covered_ && covers_points(*search_, *level_);
             if (walking_ == Walking::never) {
                 at_ = levels.size();
@@ -117,34 +98,43 @@ class Cells {
     const Level* level_ = nullptr;
     unsigned count_ = 0;
     std::array<Stop, k_most_block> stops_;
-    LineWalk walk_;
+    Walk walk_;
 };
 
 /// What `visit_near` does in a level where the path is not short. Returns whether the levels after this one are done as well.
 template <class Scalar, class Limit, class Use>
 [[gnu::noinline]] bool visit_along(Search<Scalar>& search, const Halves& half, const Level& level, bool once, bool& covered, Ids& ids,
                                    Limit&& limit, QueryCounters& counters, Use&& use) {
-    LineWalk walk;
-    const Walking walking = start_walk(search, half, level, limit(), once, walk);
+    const Backend& backend = *search.scene.backend;
+    Walk walk;
+    const Walking walking = backend.start_walk(level.packed(), half.from.data(), half.to.data(), limit(), once, walk);
     if (walking == Walking::never) {
         each_triangle(search.scene, level.first_id(), [&](std::uint32_t* some, unsigned count) { use(some, count, covered); });
         return true;
     }
     if (walking == Walking::no) return false;
     covered = covered && covers_points(search, level);
-    const Backend& backend = *search.scene.backend;
-    for (Stop stop; walk.next(limit(), stop);) {
-        ++counters.cells;
-        search.come_to(walk.fraction());
-        const Range range = level.range(stop.number);
-        for (std::uint32_t begin = range.begin; begin < range.end; begin += k_most_ids) {
-            const unsigned some = std::min(range.end - begin, k_most_ids);
-            const unsigned count =
-                backend.cull(level.boxes(begin), level.ids(begin), some, stop.cull.above, stop.cull.seen, ids.data());
-            if (count > 0) use(ids.data(), count, covered);
+    std::array<Stop, k_most_walk> stops;
+    for (;;) {
+        const unsigned found = backend.walk(level.packed(), walk, limit(), stops.data(), k_most_walk);
+        if (found == 0) return false;
+        search.come_to(stops[0].fraction);
+        unsigned count = 0;
+        counters.cells += found;
+        for (unsigned i = 0; i < found; ++i) {
+            const Range range = level.range(stops[i].number);
+            for (std::uint32_t begin = range.begin; begin < range.end;) {
+                const unsigned some = std::min(range.end - begin, k_most_ids);
+                if (count + some > k_most_ids) {
+                    use(ids.data(), count, covered);
+                    count = 0;
+                }
+                count += backend.cull(level.boxes(begin), level.ids(begin), some, stops[i].cull.above, stops[i].cull.seen, ids.data() + count);
+                begin += some;
+            }
         }
+        if (count > 0) use(ids.data(), count, covered);
     }
-    return false;
 }
 
 /// Calls `use(ids, count, covered)` for the triangles whose boxes the path comes near; see `Cells`.

@@ -1,7 +1,10 @@
 // A segment on its way through the rooms: what the grid and the kernels need of it, computed once.
 #pragma once
 
-#include <grid/walk.h>
+#include <cmath>
+#include <limits>
+
+#include <grid/grid.h>
 #include <query/scene.h>
 
 namespace pierce::detail {

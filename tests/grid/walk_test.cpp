@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <grid/grid.h>
-#include <grid/walk.h>
+#include <kernel/backends.h>
 #include <support/random.h>
 
 namespace pierce::test {
@@ -38,15 +38,16 @@ Grid grid_of(const Boxes& boxes, double cell, std::size_t most = std::size_t{1} 
     return Grid(std::span<const PlainBox<double>>(boxes), {cell, most}, {});
 }
 
-Line line_of(const Raster& raster, const Path& path) {
-    Point from{};
-    Point to{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        from[k] = raster.place(k, 0.5 * path.from[k]);
-        to[k] = raster.place(k, 0.5 * path.to[k]);
+struct Halves {
+    explicit Halves(const Path& path) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            from[k] = 0.5 * path.from[k];
+            to[k] = 0.5 * path.to[k];
+        }
     }
-    return Line(from, to, raster);
-}
+    std::array<double, 4> from{};
+    std::array<double, 4> to{};
+};
 
 // What a compare of packed boxes leaves, in plain words: the kernels do it with one instruction.
 bool leaves(const Cull& cull, PackedBox box) {
@@ -60,33 +61,38 @@ enum class Way { block, walk, walk_once };
 
 /// How often each box is found near the path.
 template <class Visited>
-void find(const Grid& grid, const Path& path, Way way, double limit, bool& wide, Visited&& visited) {
+void find(const Backend& backend, const Grid& grid, const Path& path, Way way, double limit, bool& wide, Visited&& visited) {
+    const Halves half(path);
     for (const Level& level : grid.levels()) {
         const auto visit = [&](const Stop& stop) {
-            const Range range = stop.level->range(stop.number);
+            const Range range = level.range(stop.number);
             for (std::uint32_t i = range.begin; i < range.end; ++i)
                 if (leaves(stop.cull, *level.boxes(i))) visited(*level.ids(i));
         };
-        Point low{};
-        Point high{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(path.from[k], path.to[k]);
-            high[k] = std::max(path.from[k], path.to[k]);
-        }
-        const Steps steps = level.raster().steps(low, high);
-        if (level.raster().outside(steps)) continue;
-        const Line line = line_of(level.raster(), path);
-        Stop stop;
         if (way == Way::block) {
-            BlockWalk walk;
-            const int found = walk.start(level, steps, level.raster().cell_of(steps.low), level.raster().cell_of(steps.high));
+            std::array<Stop, k_most_block> stops;
+            const int found = backend.block(level.packed(), half.from.data(), half.to.data(), stops.data());
             wide = wide || found < 0;
-            if (found < 0) continue;
-            while (walk.next(stop)) visit(stop);
-        } else if (!line.empty()) {
-            LineWalk walk;
-            walk.start(level, line, way == Way::walk_once);
-            while (walk.next(limit, stop)) visit(stop);
+            for (int i = 0; i < found; ++i) visit(stops[static_cast<std::size_t>(i)]);
+        } else {
+            Walk walk;
+            const Walking walking =
+                backend.start_walk(level.packed(), half.from.data(), half.to.data(), limit, way == Way::walk_once, walk);
+            if (walking == Walking::no) continue;
+            if (walking == Walking::never) {  // every triangle is to be asked: allowed for an end beyond 2^34 cells only
+                double furthest = 0;
+                for (std::size_t k = 0; k < 3; ++k)
+                    for (const double x : {half.from[k], half.to[k]})
+                        furthest = std::max(furthest, std::abs(level.raster().place(k, x)) / k_steps);
+                ASSERT_GE(furthest, 0x1p34);
+                wide = true;
+                continue;
+            }
+            std::array<Stop, 3> stops;
+            for (unsigned found = 3; found == 3;) {
+                found = backend.walk(level.packed(), walk, limit, stops.data(), 3);
+                for (unsigned i = 0; i < found; ++i) visit(stops[i]);
+            }
         }
     }
 }
@@ -136,12 +142,13 @@ void check_walks(Maker maker, double cell, int count, int segments) {
         for (Point* end : {&path.from, &path.to})
             for (double& x : *end) x = std::clamp(x, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
         const double limit = maker.random.chance(0.3) ? maker.random.unit() : 1;
+        const Backend& backend = *backends()[maker.random.below(backends().size())];
         for (const Way way : {Way::block, Way::walk, Way::walk_once}) {
             std::vector<int> seen(boxes.size(), 0);
-            bool wide = false;  // the block is none
-            find(grid, path, way, limit, wide, [&](std::uint32_t id) { ++seen[order[id]]; });
+            bool wide = false;  // there is no block, or no walk
+            find(backend, grid, path, way, limit, wide, [&](std::uint32_t id) { ++seen[order[id]]; });
             for (std::size_t n = 0; n < seen.size(); ++n) {
-                if (way == Way::block && wide) continue;
+                if (wide) continue;
                 if (way != Way::walk) {
                     ASSERT_LE(seen[n], 1) << "segment " << i << " box " << n;
                 }
@@ -149,7 +156,7 @@ void check_walks(Maker maker, double cell, int count, int segments) {
                 if (!meets(path, boxes[n], enter) || enter > Q(limit)) continue;
                 ++met;
                 ASSERT_GT(seen[n], 0) << "segment " << i << " box " << n << " scale " << maker.scale << " offset " << maker.offset
-                                      << " cell " << cell << " way " << static_cast<int>(way);
+                                      << " cell " << cell << " " << backend.name << " way " << static_cast<int>(way);
             }
         }
     }
@@ -179,7 +186,7 @@ TEST(Walk, goes_from_start_to_end_and_stops_at_the_limit) {
         if (backward) std::swap(path.from, path.to);
         std::vector<std::uint32_t> found;
         bool wide = false;
-        find(grid, path, Way::walk_once, 0.47, wide, [&](std::uint32_t id) { found.push_back(order[id]); });
+        find(choose_backend({}), grid, path, Way::walk_once, 0.47, wide, [&](std::uint32_t id) { found.push_back(order[id]); });
         EXPECT_EQ(found, backward ? (std::vector<std::uint32_t>{9, 8, 7, 6, 5}) : (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
     }
 }
@@ -193,15 +200,18 @@ TEST(Walk, visits_few_cells) {
     const Grid grid = grid_of(boxes, 1);
     ASSERT_EQ(grid.levels().size(), 1U);
     const auto visited = [&](const Path& path) {
-        int count = 0;
-        LineWalk walk;
-        walk.start(grid.levels()[0], line_of(grid.levels()[0].raster(), path), false);
-        for (Stop stop; walk.next(1, stop);) ++count;
+        unsigned count = 0;
+        const Backend& backend = choose_backend({});
+        const PackedLevel& level = grid.levels()[0].packed();
+        const Halves half(path);
+        Walk walk;
+        if (backend.start_walk(level, half.from.data(), half.to.data(), 1, false, walk) != Walking::along) return count;
+        for (Stop stop; backend.walk(level, walk, 1, &stop, 1) == 1;) ++count;
         return count;
     };
-    EXPECT_EQ(visited({{10.5, 20.5, 30.5}, {10.9, 20.9, 30.9}}), 1);
-    EXPECT_LE(visited({{0.3, 0.5, 0.7}, {39.3, 38.5, 39.7}}), 121);
-    EXPECT_GE(visited({{0.3, 0.5, 0.7}, {39.3, 38.5, 39.7}}), 80);
+    EXPECT_EQ(visited({{10.5, 20.5, 30.5}, {10.9, 20.9, 30.9}}), 1U);
+    EXPECT_LE(visited({{0.3, 0.5, 0.7}, {39.3, 38.5, 39.7}}), 121U);
+    EXPECT_GE(visited({{0.3, 0.5, 0.7}, {39.3, 38.5, 39.7}}), 80U);
 }
 
 TEST(Grid, keeps_to_its_memory) {
