@@ -16,12 +16,12 @@ template <class Kernel, class Scalar, class Passed>
                                  const QueryOptions& options, QueryCounters& counters, const Shortlist* shortlist = nullptr) {
     const std::uint32_t triangle = candidate.triangle;
     const Corners corners = scene.corners(triangle);
-    const Point normal = normal_of<Scalar>(corners);
-    Hit<Scalar> hit = report<Scalar>(path, corners, normal, candidate.decision, scene.face_of(triangle),
-                                     scene.triangle_numbers[triangle]);
+    const Point normal = Kernel::template normal<Scalar>(corners, counters);
+    Hit<Scalar> hit = report<Scalar>(Kernel::template measures<Scalar>(path, corners, candidate.decision, counters), normal,
+                                     candidate.decision, scene.face_of(triangle), scene.triangle_numbers[triangle]);
     QueryOptions whole = options;
     whole.max_fraction = 1;  // a nearer limit was meant for the caller's own segment
-    const auto side = [&](const Point& point) { return Kernel::side(corners, point); };
+    const auto side = [&](const Point& point) { return Kernel::side(corners, point, counters); };
     const auto clear = [&](const Point& point) {
         Search<Scalar> search(scene, {path.from, point}, options.sides);
         Any any(passed, triangle);  // verify() has seen to the hit's own triangle

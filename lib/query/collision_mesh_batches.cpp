@@ -21,6 +21,8 @@ void add(QueryCounters& to, const QueryCounters& from) {
     atomic_add(to.triangles, from.triangles);
     atomic_add(to.exact_decisions, from.exact_decisions);
     atomic_add(to.exact_orders, from.exact_orders);
+    atomic_add(to.exact_values, from.exact_values);
+    atomic_add(to.exact_sides, from.exact_sides);
     atomic_add(to.retreats, from.retreats);
 }
 

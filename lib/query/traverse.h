@@ -1,9 +1,9 @@
 // The one way through the rooms: grid, kernels, exact arithmetic where they are in doubt, collector.
 #pragma once
 
-#include <kernel/filter.h>
 #include <query/candidate.h>
 #include <query/cells.h>
+#include <query/values.h>
 
 namespace pierce::detail {
 
@@ -17,16 +17,16 @@ template <class Scalar>
 /// Whether the caller's own test takes a hit; `accept` must be given.
 template <class Scalar>
 [[nodiscard]] bool accepted(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate,
-                            const QueryOptions& options) {
-    const Measures measures = measure(path, scene.corners(candidate.triangle));
+                            const QueryOptions& options, QueryCounters& counters) {
+    const Measures measures = measures_of<double>(path, scene.corners(candidate.triangle), candidate.decision, counters);
     const Point& w = measures.barycentric;
     return options.accept({scene.face_of(candidate.triangle), scene.triangle_numbers[candidate.triangle], candidate.decision.side,
                            candidate.decision.feature, candidate.decision.feature_index, candidate.decision.at_start,
                            measures.fraction, {w[0], w[1], w[2]}});
 }
 
-/// How a triangle that the wide kernels leave is decided: the filter, and exact arithmetic where that is in doubt. (A policy, so that the
-/// benchmark can put another in its place and measure what certainty costs.)
+/// All that is certified about a triangle that the wide kernels leave: whether it is hit, sides of its plane, values. (A policy, so that
+/// the benchmark can put another in its place and measure what certainty costs.)
 struct Certified {
     static constexpr float unit = 0x1p-24F;  ///< of the wide kernels' bounds
 
@@ -46,14 +46,22 @@ struct Certified {
         ++counters.exact_decisions;
         const Decision decision = decide(path, corners, sides);
         if (!decision.hit) return false;
-        candidate = exact_candidate(triangle, decision, measure(path, corners).fraction);
+        candidate = exact_candidate(triangle, decision, measures_of<double>(path, corners, decision, counters).fraction);
         return true;
     }
 
-    /// The side of its plane that a point is on.
-    static int side(const Corners& corners, const Point& point) {
-        const int side = certain_side(corners, point);
-        return side != 0 ? side : side_of(corners, point);
+    static int side(const Corners& corners, const Point& point, QueryCounters& counters) {
+        return side_of_plane(corners, point, counters);
+    }
+
+    template <class Scalar>
+    static Measures measures(const Path& path, const Corners& corners, const Decision& decision, QueryCounters& counters) {
+        return measures_of<Scalar>(path, corners, decision, counters);
+    }
+
+    template <class Scalar>
+    static Point normal(const Corners& corners, QueryCounters& counters) {
+        return normal_of<Scalar>(corners, counters);
     }
 };
 
@@ -80,7 +88,7 @@ void test_triangles(const Search<Scalar>& search, const std::uint32_t* ids, unsi
                 if (candidate.earliest > options.max_fraction) continue;
                 if (!fraction_at_most(search.path, corners, options.max_fraction)) continue;
             }
-            if (options.accept && !accepted(scene, search.path, candidate, options)) continue;
+            if (options.accept && !accepted(scene, search.path, candidate, options, counters)) continue;
             collector.add(candidate);
         }
     }
