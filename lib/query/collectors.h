@@ -86,7 +86,7 @@ class All {
         hit.feature_index = candidate.decision.feature_index;
         hit.at_start = candidate.decision.at_start;
         hit.exact_fraction = static_cast<Scalar>(
-            measures_of<Scalar>(path_, scene_.corners(candidate.triangle), candidate.decision, counters_).fraction);
+            CertifiedFace<Scalar>(scene_.corners(candidate.triangle), counters_).measures(path_, candidate.decision).fraction);
     }
     [[nodiscard]] std::size_t total() const { return total_; }
     [[nodiscard]] std::size_t kept_count() const { return kept_; }

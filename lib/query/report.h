@@ -11,7 +11,7 @@
 
 namespace pierce::detail {
 
-/// Everything but `fraction` and `point`, from `measures_of` and `normal_of`.
+/// Everything but `fraction` and `point`, from what is certified (values.h).
 template <class Scalar>
 [[nodiscard]] Hit<Scalar> report(const Measures& measures, const Point& normal, const Decision& decision, std::uint32_t face,
                                  std::uint32_t triangle) {

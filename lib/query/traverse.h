@@ -1,6 +1,7 @@
 // The one way through the rooms: grid, kernels, exact arithmetic where they are in doubt, collector.
 #pragma once
 
+#include <kernel/filter.h>
 #include <query/candidate.h>
 #include <query/cells.h>
 #include <query/values.h>
@@ -18,7 +19,7 @@ template <class Scalar>
 template <class Scalar>
 [[nodiscard]] bool accepted(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate,
                             const QueryOptions& options, QueryCounters& counters) {
-    const Measures measures = measures_of<double>(path, scene.corners(candidate.triangle), candidate.decision, counters);
+    const Measures measures = CertifiedFace<double>(scene.corners(candidate.triangle), counters).measures(path, candidate.decision);
     const Point& w = measures.barycentric;
     return options.accept({scene.face_of(candidate.triangle), scene.triangle_numbers[candidate.triangle], candidate.decision.side,
                            candidate.decision.feature, candidate.decision.feature_index, candidate.decision.at_start,
@@ -46,23 +47,13 @@ struct Certified {
         ++counters.exact_decisions;
         const Decision decision = decide(path, corners, sides);
         if (!decision.hit) return false;
-        candidate = exact_candidate(triangle, decision, measures_of<double>(path, corners, decision, counters).fraction);
+        candidate = exact_candidate(triangle, decision, CertifiedFace<double>(corners, counters).measures(path, decision).fraction);
         return true;
     }
 
-    static int side(const Corners& corners, const Point& point, QueryCounters& counters) {
-        return side_of_plane(corners, point, counters);
-    }
-
+    /// Normal, values and sides of one that is hit.
     template <class Scalar>
-    static Measures measures(const Path& path, const Corners& corners, const Decision& decision, QueryCounters& counters) {
-        return measures_of<Scalar>(path, corners, decision, counters);
-    }
-
-    template <class Scalar>
-    static Point normal(const Corners& corners, QueryCounters& counters) {
-        return normal_of<Scalar>(corners, counters);
-    }
+    using Face = CertifiedFace<Scalar>;
 };
 
 /// Asks the kernels about a list of triangles and gives the collector those that the path hits under `options`.

@@ -1,61 +1,74 @@
-// The values of a decided hit, each by the cheapest arithmetic that is certainly good enough: double, then exact.
+// What is certified about a triangle that is hit, each value by the cheapest arithmetic that is certainly good enough: double (for float only),
+// double-double, exact integers.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <optional>
 #include <type_traits>
 
 #include <exact/decide.h>
 #include <exact/fraction.h>
 #include <exact/planes.h>
-#include <kernel/filter.h>
+#include <kernel/plane.h>
 #include <pierce/options.h>
 
 namespace pierce::detail {
 
-/// The values of a hit before they are rounded to float, from the filter's numbers, if those are good enough: the fraction within
-/// 2^-30 of itself, the weights within 2^-28 of 1. That is below a tenth of a float's last place.
-[[nodiscard]] inline bool measure_for_float(const Corners& corners, const Path& path, Measures& measures) {
-    const Volumes64 x(corners, path);
-    const double s = std::abs(x.s);
-    const double start = x.s < 0 ? -x.v : x.v;
-    // x / s with x off by ex and s by es (filter.h) is off by less than (ex + es) / (s - es), as x <= s; x / s itself by its part.
-    const double least = s - x.es;
-    if (!(x.in_range && least > 0 && start > 0 && x.ev * s + x.es * start <= 0x1p-31 * start * least)) return false;
-    if (!(x.e + x.es <= 0x1p-29 * least)) return false;
-    const auto share = [&](std::size_t k) { return std::clamp(x.weight[k] / x.s, 0.0, 1.0); };
-    measures = {start / s, {share(0), share(1), share(2)}};
-    return true;
-}
-
-/// Fraction and weights of a hit, before they are rounded to `Scalar`.
+/// `Scalar`: what the values will be rounded to.
 template <class Scalar>
-[[nodiscard]] Measures measures_of(const Path& path, const Corners& corners, const Decision& decision, QueryCounters& counters) {
-    Measures measures{};
-    // On an edge or at the start some values are exactly 0, which only exact arithmetic gives.
-    const bool plain = decision.feature == Feature::face && !decision.at_start;
-    if (std::is_same_v<Scalar, float> && plain && measure_for_float(corners, path, measures)) return measures;
-    ++counters.exact_values;
-    return measure(path, corners);
-}
+class CertifiedFace {
+  public:
+    CertifiedFace(const Corners& corners, QueryCounters& counters) : corners_(corners), counters_(counters), plane_(corners_) {}
+    CertifiedFace(const CertifiedFace&) = delete;
+    CertifiedFace& operator=(const CertifiedFace&) = delete;
 
-/// The face's normal up to a factor, each component within 2^-28 (for float) or 2^-52 (for double) of the largest.
-template <class Scalar>
-[[nodiscard]] Point normal_of(const Corners& corners, QueryCounters& counters) {
-    if constexpr (std::is_same_v<Scalar, float>) {
-        const Normal n(corners);
-        if (n.certain && n.error <= 0x1p-29 * Volumes64::largest(n.normal)) return n.normal;
+    /// The normal up to a factor, each component within 2^-28 (for float) or 2^-52 (for double) of the largest.
+    [[nodiscard]] Point normal() {
+        if (plane_.has_normal(k_tolerance)) return point(plane_.normal);
+        if (k_coarse && finer().has_normal(k_tolerance)) return point(finer().normal);
+        ++counters_.exact_values;
+        return exact_planes(corners_).normal;
     }
-    ++counters.exact_values;
-    return exact_planes(corners).normal;
-}
 
-/// The side of its plane that a point is on: as side_of.
-[[nodiscard]] inline int side_of_plane(const Corners& corners, const Point& point, QueryCounters& counters) {
-    const int side = certain_side(corners, point);
-    if (side != 0) return side;
-    ++counters.exact_sides;
-    return side_of(corners, point);
-}
+    /// Fraction and weights of a hit, within `k_tolerance` of themselves and of 1 before they are rounded to double.
+    [[nodiscard]] Measures measures(const Path& path, const Decision& decision) {
+        // On an edge or at the start some values are exactly 0, which only exact arithmetic gives.
+        if (decision.feature == Feature::face && !decision.at_start) {
+            const Meeting meeting(plane_, path);
+            if (meeting.within(k_tolerance)) return {meeting.fraction, meeting.weights};
+            if (k_coarse) {
+                const Meeting closer(finer(), path);
+                if (closer.within(k_tolerance)) return {closer.fraction, closer.weights};
+            }
+        }
+        ++counters_.exact_values;
+        return measure(path, corners_);
+    }
+
+    /// The side of the plane that a point is on: as side_of.
+    [[nodiscard]] int side(const Point& point) {
+        int side = plane_.side(point);
+        if (k_coarse && side == plane_.doubtful) side = finer().side(point);
+        if (side != plane_.doubtful) return side;
+        ++counters_.exact_sides;
+        return side_of(corners_, point);
+    }
+
+  private:
+    static constexpr bool k_coarse = std::is_same_v<Scalar, float>;
+    // In parts of the last place that is reported: less than a thirtieth.
+    static constexpr double k_tolerance = k_coarse ? 0x1p-29 : 0x1p-58;
+
+    static Point point(const Triple<double>& p) { return {p.x, p.y, p.z}; }
+
+    [[nodiscard]] const Plane<DoubleDouble>& finer() {
+        if (!finer_) finer_.emplace(corners_);
+        return *finer_;
+    }
+
+    const Corners corners_;
+    QueryCounters& counters_;
+    const Plane<std::conditional_t<k_coarse, double, DoubleDouble>> plane_;
+    std::optional<Plane<DoubleDouble>> finer_;  ///< for float, where it is needed
+};
 
 }  // namespace pierce::detail

@@ -34,19 +34,19 @@ struct Trusting {
         candidate = {triangle, {.hit = true, .side = front ? Sides::front : Sides::back}, fraction, fraction};
         return true;
     }
-    static int side(const Corners& corners, const Point& point, QueryCounters&) {
-        const Volumes64 x(corners, {point, point});
-        return x.v <= 0 ? 1 : -1;
-    }
     template <class Scalar>
-    static Measures measures(const Path& path, const Corners& corners, const Decision&, QueryCounters&) {
-        const Volumes64 x(corners, path);
-        return {x.v / x.s, {x.weight[0] / x.s, x.weight[1] / x.s, x.weight[2] / x.s}};
-    }
-    template <class Scalar>
-    static Point normal(const Corners& corners, QueryCounters&) {
-        return Normal(corners).normal;
-    }
+    struct Face {
+        Face(const Corners& corners_, QueryCounters&) : corners(corners_), plane(corners) {}
+        [[nodiscard]] Point normal() const { return {plane.normal.x, plane.normal.y, plane.normal.z}; }
+        [[nodiscard]] Measures measures(const Path& path, const Decision&) const {
+            const Meeting meeting(plane, path);
+            return {meeting.fraction, meeting.weights};
+        }
+        [[nodiscard]] int side(const Point& point) const { return dot(difference<double>(point, plane.a), plane.n) >= 0 ? 1 : -1; }
+
+        const Corners corners;
+        const Plane<double> plane;
+    };
 };
 
 struct Set {
@@ -65,10 +65,10 @@ std::optional<Hit<Scalar>> unverified(const Scene<Scalar>& scene, const Path& pa
     traverse<Certified>(search, {}, counters, first, &shortlist);
     if (!first.found()) return std::nullopt;
     const Candidate& best = first.best();
-    const Corners corners = scene.corners(best.triangle);
-    const Point normal = Certified::normal<Scalar>(corners, counters);
-    return report<Scalar>(Certified::measures<Scalar>(path, corners, best.decision, counters), normal, best.decision,
-                          scene.face_of(best.triangle), scene.triangle_numbers[best.triangle]);
+    CertifiedFace<Scalar> face(scene.corners(best.triangle), counters);
+    const Point normal = face.normal();
+    return report<Scalar>(face.measures(path, best.decision), normal, best.decision, scene.face_of(best.triangle),
+                          scene.triangle_numbers[best.triangle]);
 }
 
 template <class Kernel, class Scalar>

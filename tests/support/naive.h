@@ -86,7 +86,7 @@ class NaiveMesh {
                 continue;
             if (options.accept) {
                 QueryCounters unused;
-                const detail::Measures m = detail::measures_of<double>(path, corners_[i], decision, unused);
+                const detail::Measures m = detail::CertifiedFace<double>(corners_[i], unused).measures(path, decision);
                 if (!options.accept({faces_[i], i, decision.side, decision.feature, decision.feature_index,
                                      decision.at_start, m.fraction, {m.barycentric[0], m.barycentric[1], m.barycentric[2]}}))
                     continue;
@@ -106,9 +106,10 @@ class NaiveMesh {
                                        const QueryOptions& options) const {
         const std::uint32_t triangle = found[i].triangle;
         QueryCounters unused;
-        const detail::Point normal = detail::normal_of<Scalar>(corners_[triangle], unused);
-        const detail::Measures m = detail::measures_of<Scalar>(path, corners_[triangle], found[i].decision, unused);
-        Hit<Scalar> hit = detail::report<Scalar>(m, normal, found[i].decision, faces_[triangle], triangle);
+        detail::CertifiedFace<Scalar> face(corners_[triangle], unused);
+        const detail::Point normal = face.normal();
+        Hit<Scalar> hit = detail::report<Scalar>(face.measures(path, found[i].decision), normal, found[i].decision, faces_[triangle],
+                                                 triangle);
         QueryOptions whole = options;
         whole.max_fraction = 1;
         const auto clear = [&](const detail::Point& point) {
