@@ -63,7 +63,7 @@ struct DoubleDouble {
 }
 
 /// What a formula that is written once needs to know of its numbers. `unit`: each of its operations is within this much of the magnitudes of
-/// what goes in; `difference`, of two doubles, too.
+/// what goes in; `difference`, of two doubles, too. `Divisor(y)(x)`: x / y as a double.
 template <class Number>
 struct Arithmetic;
 
@@ -72,7 +72,12 @@ struct Arithmetic<double> {
     static constexpr double unit = 0x1p-52;  // any rounding mode
     static double difference(double x, double y) { return x - y; }
     static double rounded(double x) { return x; }
-    static double quotient(double x, double y) { return x / y; }
+
+    struct Divisor {
+        explicit Divisor(double y_) : y(y_) {}
+        double operator()(double x) const { return x / y; }
+        double y;
+    };
 };
 
 template <>
@@ -80,17 +85,22 @@ struct Arithmetic<DoubleDouble> {
     static constexpr double unit = 0x1p-100;
     static DoubleDouble difference(double x, double y) { return two_sum(x, -y); }
     static double rounded(const DoubleDouble& x) { return x.high + x.low; }
-    /// x / y rounded once, but for 2^-101 of itself before that, if nothing underflows. The parts are made to fit first: each low one is
-    /// within v of its high one. Then q = x.high / y.high is within 3v of x / y, and what is missing is (x - q y) / y, |x - q y| <= 3v |x|:
-    /// x.high - product.high is exact (the two are within a few units of each other), the sums lose 4, 2 and 5 v^2 |x|, q y.low
-    /// 1 v^2 |x|, and dividing by y.high in place of y 6 v^2 |q|: 18 v^2 in all.
-    static double quotient(const DoubleDouble& a, const DoubleDouble& b) {
-        const DoubleDouble x = two_sum(a.high, a.low);
-        const DoubleDouble y = two_sum(b.high, b.low);
-        const double q = x.high / y.high;
-        const DoubleDouble product = two_product(q, y.high);
-        return q + (((x.high - product.high) - product.low) + (x.low - q * y.low)) / y.high;
-    }
+
+    /// Rounded once, but for 2^-100 of itself before that, if nothing underflows. The parts are made to fit first: each low one is within
+    /// v of its high one. Then q = x.high * (1 / y.high) is within 4v of x / y, and what is missing is (x - q y) / y, |x - q y| <= 4v |x|:
+    /// x.high - product.high is exact (the two are within a few units of each other), the sums lose 5, 2 and 7 v^2 |x|, q y.low
+    /// 1 v^2 |x|, and the inverse of y.high in place of that of y 3v of 5v |q|, the last product 5 v^2: 35 v^2 in all.
+    struct Divisor {
+        explicit Divisor(const DoubleDouble& y_) : y(two_sum(y_.high, y_.low)), inverse(1 / y.high) {}
+        double operator()(const DoubleDouble& x_) const {
+            const DoubleDouble x = two_sum(x_.high, x_.low);
+            const double q = x.high * inverse;
+            const DoubleDouble product = two_product(q, y.high);
+            return q + (((x.high - product.high) - product.low) + (x.low - q * y.low)) * inverse;
+        }
+        DoubleDouble y;
+        double inverse;
+    };
 };
 
 }  // namespace pierce::detail

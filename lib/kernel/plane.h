@@ -108,49 +108,42 @@ class Plane {
     static bool is_zero(const DoubleDouble& x) { return x.high == 0; }
 };
 
-/// Where a path that hits the triangle meets it.
+/// Where the line of a path meets the triangle's plane: numerators, what they are to be divided by, and bounds for their errors.
 template <class Number>
 struct Meeting {
     Meeting(const Plane<Number>& plane, const Path& path) {
-        using A = Arithmetic<Number>;
         const Triple<Number> o = difference<Number>(plane.a, path.from);
         const Triple<Number> d = difference<Number>(path.to, path.from);
         const Triple<Number> r = cross(o, d);
-        const Number s = dot(d, plane.n);
-        const Number v = dot(o, plane.n);
+        s = dot(d, plane.n);
+        v = dot(o, plane.n);
         const Number b = dot(r, plane.q);
         const Number c = -dot(r, plane.p);
-        const Number a = s - b - c;
-        fraction = A::quotient(v, s);
-        const auto share = [&](const Number& w) { return std::clamp(A::quotient(w, s), 0.0, 1.0); };
-        weights = {share(a), share(b), share(c)};
+        w = {s - b - c, b, c};
 
+        const double u = Arithmetic<Number>::unit;
         const double size = plane.size;
         const double start = largest(o);
         const double reach = largest(d);
         tame = plane.tame && is_tame(start) && is_tame(reach);
-        size_of_s = std::abs(A::rounded(s));
-        size_of_v = std::abs(A::rounded(v));
-        ev = 48 * A::unit * (size * size * start);
-        es = 48 * A::unit * (size * size * reach);
-        ea = A::unit * (size * reach) * (64 * size + 120 * start);
+        ev = 48 * u * (size * size * start);
+        es = 48 * u * (size * size * reach);
+        ea = u * (size * reach) * (64 * size + 120 * start);
     }
 
-    /// Whether the fraction, before it is rounded, is certainly within `tolerance` of itself, and the weights within `tolerance` of 1.
-    /// With s and v as computed, v / s is off by at most (v e_s + s e_v) / (s (s - e_s)), in parts of itself (e_s + e_v s / v) / (s - e_s);
-    /// a weight, which is at most 1, by (e_a + e_s) / s, e_a being the largest of the three.
+    /// For a hit: whether v / s is certainly within `tolerance` of the true fraction in parts of it, and each w / s within `tolerance` of
+    /// the true weight. The first is off by at most (v e_s + s e_v) / (s (s - e_s)), in parts of itself (e_s + e_v s / v) / (s - e_s); a
+    /// true weight being at most 1, the second by (e_a + e_s) / s, e_a being the largest of the three.
     [[nodiscard]] bool within(double tolerance) const {
         const double quarter = tolerance / 4;
-        return tame && ev <= quarter * size_of_v && es <= quarter * size_of_s && ea <= quarter * size_of_s;
+        const double divisor = quarter * std::abs(Arithmetic<Number>::rounded(s));
+        return tame && ev <= quarter * std::abs(Arithmetic<Number>::rounded(v)) && es <= divisor && ea <= divisor;
     }
 
-    double fraction;
-    Point weights;
-
-  private:
-    double size_of_s, size_of_v;
-    double ev, es, ea;
-    bool tame;
+    Number v, s;
+    Triple<Number> w;   ///< of a, b, c
+    double ev, es, ea;  ///< of the error of v, of that of s, and of those of w
+    bool tame;          ///< the bounds hold
 };
 
 }  // namespace pierce::detail

@@ -13,6 +13,14 @@
 
 namespace pierce::detail {
 
+/// The values of a meeting, each rounded once.
+template <class Number>
+[[nodiscard]] Measures quotients(const Meeting<Number>& meeting) {
+    const typename Arithmetic<Number>::Divisor over_s(meeting.s);
+    const auto share = [&](const Number& w) { return std::clamp(over_s(w), 0.0, 1.0); };
+    return {over_s(meeting.v), {share(meeting.w.x), share(meeting.w.y), share(meeting.w.z)}};
+}
+
 /// `Scalar`: what the values will be rounded to.
 template <class Scalar>
 class CertifiedFace {
@@ -34,10 +42,10 @@ class CertifiedFace {
         // On an edge or at the start some values are exactly 0, which only exact arithmetic gives.
         if (decision.feature == Feature::face && !decision.at_start) {
             const Meeting meeting(plane_, path);
-            if (meeting.within(k_tolerance)) return {meeting.fraction, meeting.weights};
+            if (meeting.within(k_tolerance)) return quotients(meeting);
             if (k_coarse) {
                 const Meeting closer(finer(), path);
-                if (closer.within(k_tolerance)) return {closer.fraction, closer.weights};
+                if (closer.within(k_tolerance)) return quotients(closer);
             }
         }
         ++counters_.exact_values;
@@ -53,11 +61,11 @@ class CertifiedFace {
         return side_of(corners_, point);
     }
 
-  private:
     static constexpr bool k_coarse = std::is_same_v<Scalar, float>;
-    // In parts of the last place that is reported: less than a thirtieth.
+    /// Of all values, before they are rounded: at most a thirty-second of the unit of rounding.
     static constexpr double k_tolerance = k_coarse ? 0x1p-29 : 0x1p-58;
 
+  private:
     static Point point(const Triple<double>& p) { return {p.x, p.y, p.z}; }
 
     [[nodiscard]] const Plane<DoubleDouble>& finer() {

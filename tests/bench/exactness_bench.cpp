@@ -39,8 +39,7 @@ struct Trusting {
         Face(const Corners& corners_, QueryCounters&) : corners(corners_), plane(corners) {}
         [[nodiscard]] Point normal() const { return {plane.normal.x, plane.normal.y, plane.normal.z}; }
         [[nodiscard]] Measures measures(const Path& path, const Decision&) const {
-            const Meeting meeting(plane, path);
-            return {meeting.fraction, meeting.weights};
+            return quotients(Meeting(plane, path));
         }
         [[nodiscard]] int side(const Point& point) const { return dot(difference<double>(point, plane.a), plane.n) >= 0 ? 1 : -1; }
 
