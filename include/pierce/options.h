@@ -35,6 +35,8 @@ struct QueryCounters {
     std::uint64_t triangles = 0;       ///< triangles given to the kernel; a triangle counts once for each cell
     std::uint64_t exact_decisions = 0; ///< triangles that the filter left doubtful
     std::uint64_t exact_orders = 0;    ///< pairs of hits too close to be ordered without exact arithmetic
+    std::uint64_t exact_values = 0;    ///< times that a hit's fraction and weights, or its normal, took exact arithmetic
+    std::uint64_t exact_sides = 0;     ///< points so close to a face's plane that their side took exact arithmetic
     std::uint64_t retreats = 0;        ///< points that had to be moved back before they were verified
 };
 

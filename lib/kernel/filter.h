@@ -32,8 +32,7 @@ struct Filtered {
     double latest = 1;
 };
 
-/// The volumes of a triangle and a path, computed, and how far they may be off. What the filter decides from, and where it is precise
-/// enough what is reported.
+/// The volumes of a triangle and a path, computed, and how far they may be off.
 struct Volumes64 {
     Volumes64(const Corners& corners, const Path& path) {
         const Point a = relative(corners[0], path.from);
@@ -91,36 +90,5 @@ struct Volumes64 {
     const double latest = s > x.es ? (start + x.ev) / (s - x.es) * (1 + 0x1p-49) : 1;
     return {Verdict::hit, front ? Sides::front : Sides::back, earliest, latest};
 }
-
-/// The side of a triangle's plane that a point is on, if that is certain: +1 or -1; else 0.
-[[nodiscard]] inline int certain_side(const Corners& corners, const Point& point) {
-    const Point a = Volumes64::relative(corners[0], point);
-    const Point b = Volumes64::relative(corners[1], point);
-    const Point c = Volumes64::relative(corners[2], point);
-    const double most = std::max({Volumes64::largest(a), Volumes64::largest(b), Volumes64::largest(c)});
-    if (!(most >= 0x1p-300 && most <= 0x1p300)) return 0;
-    const double v = Volumes64::dot(a, Volumes64::cross(b, c));
-    const double ev = 48 * 0x1p-52 * (most * most * most);
-    return v < -ev ? 1 : v > ev ? -1 : 0;
-}
-
-/// The normal (b-a) x (c-a), computed, and a bound for the error of each component: with M the largest |component| of the two edges,
-/// 3u M^2 for each product and 2u M^2 for their difference, as in lanes.h. `certain`: the bound holds.
-struct Normal {
-    explicit Normal(const Corners& corners) {
-        const Point p = Volumes64::relative(corners[1], corners[0]);
-        const Point q = Volumes64::relative(corners[2], corners[0]);
-        const double most = std::max(Volumes64::largest(p), Volumes64::largest(q));
-        normal = Volumes64::cross(p, q);
-        error = 8 * 0x1p-52 * (most * most);
-        certain = most >= 0x1p-300 && most <= 0x1p300;
-    }
-    /// The triangle's area is certainly not zero.
-    [[nodiscard]] bool has_area() const { return certain && Volumes64::largest(normal) > error; }
-
-    Point normal;
-    double error;
-    bool certain;
-};
 
 }  // namespace pierce::detail

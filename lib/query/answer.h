@@ -15,13 +15,13 @@ template <class Kernel, class Scalar, class Passed>
 [[nodiscard]] Hit<Scalar> answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Passed& passed,
                                  const QueryOptions& options, QueryCounters& counters, Shortlist* shortlist = nullptr) {
     const std::uint32_t triangle = candidate.triangle;
-    const Corners corners = scene.corners(triangle);
-    const Point normal = normal_of<Scalar>(corners);
-    Hit<Scalar> hit = report<Scalar>(path, corners, normal, candidate.decision, scene.face_of(triangle),
+    typename Kernel::template Face<Scalar> face(scene.corners(triangle), counters);
+    const Point normal = face.normal();
+    Hit<Scalar> hit = report<Scalar>(face.measures(path, candidate.decision), normal, candidate.decision, scene.face_of(triangle),
                                      scene.triangle_numbers[triangle]);
     QueryOptions whole = options;
     whole.max_fraction = 1;  // a nearer limit was meant for the caller's own segment
-    const auto side = [&](const Point& point) { return Kernel::side(corners, point); };
+    const auto side = [&](const Point& point) { return face.side(point); };
     const auto clear = [&](const Point& point) {
         Search<Scalar> search(scene, {path.from, point}, options.sides);
         Any any(passed, triangle);  // verify() has seen to the hit's own triangle

@@ -6,6 +6,7 @@
 
 #include <pierce/hit.h>
 #include <query/candidate.h>
+#include <query/values.h>
 
 namespace pierce::detail {
 
@@ -84,7 +85,8 @@ class All {
         hit.feature = candidate.decision.feature;
         hit.feature_index = candidate.decision.feature_index;
         hit.at_start = candidate.decision.at_start;
-        hit.exact_fraction = static_cast<Scalar>(measure(path_, scene_.corners(candidate.triangle)).fraction);
+        hit.exact_fraction = static_cast<Scalar>(
+            CertifiedFace<Scalar>(scene_.corners(candidate.triangle), counters_).measures(path_, candidate.decision).fraction);
     }
     [[nodiscard]] std::size_t total() const { return total_; }
     [[nodiscard]] std::size_t kept_count() const { return kept_; }

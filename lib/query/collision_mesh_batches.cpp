@@ -21,6 +21,8 @@ void add(QueryCounters& to, const QueryCounters& from) {
     atomic_add(to.triangles, from.triangles);
     atomic_add(to.exact_decisions, from.exact_decisions);
     atomic_add(to.exact_orders, from.exact_orders);
+    atomic_add(to.exact_values, from.exact_values);
+    atomic_add(to.exact_sides, from.exact_sides);
     atomic_add(to.retreats, from.retreats);
 }
 
@@ -42,9 +44,12 @@ std::size_t in_parts(std::size_t count, const BatchOptions& options, std::atomic
     return hits;
 }
 
+// Not inlined: the compiler would move the comparison to where the caller's arithmetic is back (environment.h).
+[[gnu::noinline]] bool is_limit(const double& max_fraction) { return max_fraction >= 0; }
+
 bool asks_nothing(const QueryOptions& options) {
     const StandardArithmetic standard;  // NaN is no reason to trap
-    return !(options.max_fraction >= 0);
+    return !is_limit(options.max_fraction);
 }
 
 void check_sizes(std::size_t from, std::size_t to, std::size_t out) {

@@ -94,7 +94,7 @@ std::vector<FaceVerdict> explain(const Scene<Scalar>& scene, const Segment<Scala
             const Corners corners = scene.corners(triangle);
             const Candidate candidate{triangle, decide(path, corners, options.sides)};
             if (!fraction_at_most(path, corners, options.max_fraction)) verdict.reason = Reason::too_far;
-            else if (options.accept && !accepted(scene, path, candidate, options)) verdict.reason = Reason::not_accepted;
+            else if (options.accept && !accepted(scene, path, candidate, options, counters)) verdict.reason = Reason::not_accepted;
             else if (triangle == first.best().triangle) verdict.reason = Reason::first_hit;
         }
         verdicts.push_back(verdict);

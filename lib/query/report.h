@@ -7,46 +7,14 @@
 
 #include <exact/decide.h>
 #include <exact/fraction.h>
-#include <exact/planes.h>
-#include <kernel/filter.h>
 #include <pierce/hit.h>
 
 namespace pierce::detail {
 
-/// The values of a hit before they are rounded to float, from the filter's numbers, if those are good enough: the fraction within
-/// 2^-30 of itself, the weights within 2^-28 of 1. That is below a tenth of a float's last place.
-[[nodiscard]] inline bool measure_for_float(const Corners& corners, const Path& path, Measures& measures) {
-    const Volumes64 x(corners, path);
-    const double s = std::abs(x.s);
-    const double start = x.s < 0 ? -x.v : x.v;
-    // x / s with x off by ex and s by es (filter.h) is off by less than (ex + es) / (s - es), as x <= s; x / s itself by its part.
-    const double least = s - x.es;
-    if (!(x.in_range && least > 0 && start > 0 && x.ev * s + x.es * start <= 0x1p-31 * start * least)) return false;
-    if (!(x.e + x.es <= 0x1p-29 * least)) return false;
-    const auto share = [&](std::size_t k) { return std::clamp(x.weight[k] / x.s, 0.0, 1.0); };
-    measures = {start / s, {share(0), share(1), share(2)}};
-    return true;
-}
-
-/// The face's normal up to a factor, each component within 2^-28 (for float) or 2^-52 (for double) of the largest.
+/// Everything but `fraction` and `point`, from what is certified (values.h).
 template <class Scalar>
-[[nodiscard]] Point normal_of(const Corners& corners) {
-    if constexpr (std::is_same_v<Scalar, float>) {
-        const Normal n(corners);
-        if (n.certain && n.error <= 0x1p-29 * Volumes64::largest(n.normal)) return n.normal;
-    }
-    return exact_planes(corners).normal;
-}
-
-/// Everything but `fraction` and `point`; `normal` is that of `normal_of`.
-template <class Scalar>
-[[nodiscard]] Hit<Scalar> report(const Path& path, const Corners& corners, const Point& normal, const Decision& decision,
-                                 std::uint32_t face, std::uint32_t triangle) {
-    Measures measures{};
-    // On an edge or at the start some values are exactly 0, which only exact arithmetic gives.
-    const bool plain = decision.feature == Feature::face && !decision.at_start;
-    if (!(std::is_same_v<Scalar, float> && plain && measure_for_float(corners, path, measures)))
-        measures = measure(path, corners);
+[[nodiscard]] Hit<Scalar> report(const Measures& measures, const Point& normal, const Decision& decision, std::uint32_t face,
+                                 std::uint32_t triangle) {
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     Hit<Scalar> hit{};
     for (int k = 0; k < 3; ++k) {

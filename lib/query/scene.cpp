@@ -6,7 +6,7 @@
 #include <unordered_set>
 
 #include <exact/decide.h>
-#include <kernel/filter.h>
+#include <kernel/plane.h>
 #include <mesh/check_mesh.h>
 
 namespace pierce::detail {
@@ -38,7 +38,7 @@ std::vector<PlainBox<Scalar>> make_boxes(const MeshView<Scalar>& mesh, const Exe
                 box.high[k] = std::max(std::max(a[k], b[k]), c[k]);
             }
             const Corners corners = {to_point(mesh.positions[t[0]]), to_point(mesh.positions[t[1]]), to_point(mesh.positions[t[2]])};
-            if (!Normal(corners).has_area() && has_zero_area(corners)) box = {{1, 1, 1}, {0, 0, 0}};
+            if (!Plane<double>(corners).has_area() && has_zero_area(corners)) box = {{1, 1, 1}, {0, 0, 0}};
         }
     });
     return boxes;

@@ -4,6 +4,7 @@
 #include <kernel/filter.h>
 #include <query/candidate.h>
 #include <query/cells.h>
+#include <query/values.h>
 
 namespace pierce::detail {
 
@@ -17,16 +18,16 @@ template <class Scalar>
 /// Whether the caller's own test takes a hit; `accept` must be given.
 template <class Scalar>
 [[nodiscard]] bool accepted(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate,
-                            const QueryOptions& options) {
-    const Measures measures = measure(path, scene.corners(candidate.triangle));
+                            const QueryOptions& options, QueryCounters& counters) {
+    const Measures measures = CertifiedFace<double>(scene.corners(candidate.triangle), counters).measures(path, candidate.decision);
     const Point& w = measures.barycentric;
     return options.accept({scene.face_of(candidate.triangle), scene.triangle_numbers[candidate.triangle], candidate.decision.side,
                            candidate.decision.feature, candidate.decision.feature_index, candidate.decision.at_start,
                            measures.fraction, {w[0], w[1], w[2]}});
 }
 
-/// How a triangle that the wide kernels leave is decided: the filter, and exact arithmetic where that is in doubt. (A policy, so that the
-/// benchmark can put another in its place and measure what certainty costs.)
+/// All that is certified about a triangle that the wide kernels leave: whether it is hit, sides of its plane, values. (A policy, so that
+/// the benchmark can put another in its place and measure what certainty costs.)
 struct Certified {
     static constexpr float unit = 0x1p-24F;  ///< of the wide kernels' bounds
 
@@ -46,15 +47,13 @@ struct Certified {
         ++counters.exact_decisions;
         const Decision decision = decide(path, corners, sides);
         if (!decision.hit) return false;
-        candidate = exact_candidate(triangle, decision, measure(path, corners).fraction);
+        candidate = exact_candidate(triangle, decision, CertifiedFace<double>(corners, counters).measures(path, decision).fraction);
         return true;
     }
 
-    /// The side of its plane that a point is on.
-    static int side(const Corners& corners, const Point& point) {
-        const int side = certain_side(corners, point);
-        return side != 0 ? side : side_of(corners, point);
-    }
+    /// Normal, values and sides of one that is hit.
+    template <class Scalar>
+    using Face = CertifiedFace<Scalar>;
 };
 
 /// Asks the kernels about a list of triangles and gives the collector those that the path hits under `options`.
@@ -81,7 +80,7 @@ void test_triangles(Search<Scalar>& search, std::uint32_t* ids, unsigned count, 
                 if (candidate.earliest > options.max_fraction) continue;
                 if (!fraction_at_most(search.path, corners, options.max_fraction)) continue;
             }
-            if (options.accept && !accepted(scene, search.path, candidate, options)) continue;
+            if (options.accept && !accepted(scene, search.path, candidate, options, counters)) continue;
             collector.add(candidate);
         }
     }

@@ -1,4 +1,5 @@
 // The caller's floating-point environment changes nothing: flush to zero, denormals are zero, every rounding mode, and both at once.
+// And where every floating-point exception stops the program, none is raised, not even by what is not a number.
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
 #include <support/expect_hit.h>
@@ -64,6 +65,83 @@ TEST(Environment, changes_no_bit) {
     expect_same_everywhere<double>("tiny doubles", sphere, 1e-300);
     expect_same_everywhere<double>("huge doubles", sphere, 1e300);
 }
+
+#if defined(__GLIBC__)
+
+// A program that is stopped (SIGFPE) by any floating-point exception, for as long as it lives.
+class Traps {
+  public:
+    Traps() { feenableexcept(FE_ALL_EXCEPT); }
+    ~Traps() { std::fesetenv(FE_DFL_ENV); }
+    Traps(const Traps&) = delete;
+    Traps& operator=(const Traps&) = delete;
+};
+
+TEST(Environment, traps_where_the_processor_has_them) {
+    Traps traps;
+    if (fegetexcept() == 0) GTEST_SKIP() << "this processor has no traps";
+    volatile double zero = 0;
+    EXPECT_DEATH(zero = zero / zero, "");  // or the next test would show nothing
+}
+
+template <class Scalar>
+void expect_no_trap() {
+    const TriangleSoup<Scalar> soup = moved<Scalar>(bumpy_sphere(4), 1, {0, 0, 0});
+    const CollisionMesh<Scalar> mesh(soup.view());
+    const Scalar nan = std::numeric_limits<Scalar>::signaling_NaN();
+    const double limit = std::numeric_limits<double>::signaling_NaN();
+    const Segment<Scalar> through{{3, Scalar(0.1), Scalar(0.2)}, {-3, Scalar(0.1), Scalar(0.3)}};
+    Segment<Scalar> bad = through;
+    bad.from[1] = nan;
+    const std::array<Segment<Scalar>, 2> both = {through, bad};
+    std::array<std::optional<Hit<Scalar>>, 2> first;
+    std::array<std::uint8_t, 2> any{};
+    std::array<Hit<Scalar>, 4> all;
+    TriangleSoup<Scalar> bad_soup = soup;
+    bad_soup.positions[2][0] = nan;
+    const QueryOptions nothing{.max_fraction = limit};
+    BatchOptions batch;
+    BatchOptions nothing_batch;
+    nothing_batch.max_fraction = limit;
+
+    bool hit = false;
+    bool refused = true;
+    bool thrown = false;
+    std::size_t hits = 0;
+    std::size_t none = 0;
+    {
+        const Traps traps;
+        for (const Segment<Scalar>& s : both) {
+            const bool good = &s == &both[0];
+            const bool found = mesh.first_hit(s).has_value();
+            const bool some = mesh.any_hit(s);
+            const std::size_t count = mesh.all_hits(s, all) + static_cast<std::size_t>(mesh.sweep(s.from, s.to).has_value());
+            const bool inside = mesh.contains(s.from);
+            const int crossed = mesh.crossings(s);
+            const std::size_t faces = mesh.explain(s).size();
+            if (good) hit = found && some && count == 2 && !inside && crossed == 0 && faces > 0;
+            else refused = refused && !found && !some && count == 0 && !inside && crossed == 0 && faces == 0;
+        }
+        refused = refused && !mesh.first_hit(through, nothing) && !mesh.any_hit(through, nothing) && mesh.all_hits(through, all, nothing) == 0;
+        hits = mesh.first_hits(both, first, batch) + mesh.any_hits(both, any, batch);
+        none = mesh.first_hits(both, first, nothing_batch) + mesh.any_hits(both, any, nothing_batch);
+        try {
+            const CollisionMesh<Scalar> not_finite(bad_soup.view());
+        } catch (const MeshError&) {
+            thrown = true;
+        }
+    }
+    EXPECT_TRUE(hit);
+    EXPECT_TRUE(refused);
+    EXPECT_EQ(hits, 2U);
+    EXPECT_EQ(none, 0U);
+    EXPECT_TRUE(thrown);
+}
+
+TEST(Environment, does_not_trap_on_what_is_not_a_number_in_float) { expect_no_trap<float>(); }
+TEST(Environment, does_not_trap_on_what_is_not_a_number_in_double) { expect_no_trap<double>(); }
+
+#endif
 
 }  // namespace
 }  // namespace pierce::test

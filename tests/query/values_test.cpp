@@ -1,7 +1,8 @@
 // The values of a hit are those of the true intersection, within the units in the last place that hit.h documents: against rational
-// numbers, for float and double, on generic and on delicate pairs.
+// numbers, for float and double, on generic and on delicate pairs, whichever arithmetic they came from.
 #include <gtest/gtest.h>
 #include <pierce/pierce.h>
+#include <query/values.h>
 #include <support/oracles.h>
 #include <support/pairs.h>
 
@@ -25,6 +26,11 @@ void check_values() {
     double weight = 0;
     double normal = 0;
     int hits = 0;
+    // Hits by the arithmetic that their values needed, and queries whose verified point needed the exact side of a plane.
+    int coarse = 0;
+    int fine = 0;
+    int exact_values = 0;
+    int exact_sides = 0;
     for (int i = 0; i < 30'000; ++i) {
         const auto family = static_cast<Family>(random.below(k_family_names.size()));
         const double offset = std::array{0.0, 1e3, 1e6}[random.below(3)];
@@ -33,11 +39,18 @@ void check_values() {
         const auto vec = [](const detail::Point& p) { return Vec3<double>(p[0], p[1], p[2]).cast<Scalar>().eval(); };
         const TriangleSoup<Scalar> soup{{vec(pair.corners[0]), vec(pair.corners[1]), vec(pair.corners[2])}, {{0, 1, 2}}, {}};
         const CollisionMesh<Scalar> mesh(soup.view());
-        const auto hit = mesh.first_hit({vec(pair.path.from), vec(pair.path.to)}, {.sides = Sides::both});
+        QueryCounters counters;
+        const auto hit = mesh.first_hit({vec(pair.path.from), vec(pair.path.to)}, {.sides = Sides::both, .counters = &counters});
         const RationalOracle exact(pair.path, pair.corners);
         ASSERT_EQ(hit.has_value(), exact.hit(Sides::both)) << describe(pair);
         if (!hit) continue;
         ++hits;
+        const detail::Plane<double> plane(pair.corners);
+        constexpr double tolerance = detail::CertifiedFace<Scalar>::k_tolerance;
+        if (counters.exact_values > 0) ++exact_values;
+        else if (detail::Meeting(plane, pair.path).within(tolerance) && plane.has_normal(tolerance)) ++coarse;
+        else ++fine;
+        exact_sides += counters.exact_sides > 0 ? 1 : 0;
         fraction = std::max(fraction, steps(hit->exact_fraction, exact.fraction(), CGAL::to_double(exact.fraction())));
         ASSERT_LE(Q(double(hit->fraction)), exact.fraction()) << "a lower bound: " << describe(pair);
         Vec3<double> direction;
@@ -52,8 +65,14 @@ void check_values() {
         for (int k = 0; k < 3; ++k) normal = std::max(normal, steps(hit->normal[k], Q(direction[k]), 1));
     }
     std::cout << hits << " hits; off by at most: fraction " << fraction << ", weights " << weight << ", normal " << normal
-              << " units in the last place\n";
+              << " units in the last place; " << coarse << " in double, " << fine << " in double-double, " << exact_values
+              << " exact; sides of " << exact_sides << " exact\n";
     EXPECT_GT(hits, 3000);
+    EXPECT_GT(fine, 500);
+    EXPECT_GT(exact_values, 500);
+    EXPECT_GT(exact_sides, 10);
+    if (std::is_same_v<Scalar, float>) EXPECT_GT(coarse, 500);
+    else EXPECT_EQ(coarse, 0);
     EXPECT_LE(fraction, 1);
     EXPECT_LE(weight, 1);
     EXPECT_LE(normal, 4);

@@ -11,6 +11,7 @@
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
 #include <query/report.h>
+#include <query/values.h>
 
 namespace pierce::test {
 
@@ -84,7 +85,8 @@ class NaiveMesh {
             if (!options.face_mask.empty() && (faces_[i] >= options.face_mask.size() || options.face_mask[faces_[i]] == 0))
                 continue;
             if (options.accept) {
-                const detail::Measures m = detail::measure(path, corners_[i]);
+                QueryCounters unused;
+                const detail::Measures m = detail::CertifiedFace<double>(corners_[i], unused).measures(path, decision);
                 if (!options.accept({faces_[i], i, decision.side, decision.feature, decision.feature_index,
                                      decision.at_start, m.fraction, {m.barycentric[0], m.barycentric[1], m.barycentric[2]}}))
                     continue;
@@ -103,8 +105,10 @@ class NaiveMesh {
     [[nodiscard]] Hit<Scalar> reported(const detail::Path& path, const std::vector<Found>& found, std::size_t i,
                                        const QueryOptions& options) const {
         const std::uint32_t triangle = found[i].triangle;
-        const detail::Point normal = detail::normal_of<Scalar>(corners_[triangle]);
-        Hit<Scalar> hit = detail::report<Scalar>(path, corners_[triangle], normal, found[i].decision, faces_[triangle],
+        QueryCounters unused;
+        detail::CertifiedFace<Scalar> face(corners_[triangle], unused);
+        const detail::Point normal = face.normal();
+        Hit<Scalar> hit = detail::report<Scalar>(face.measures(path, found[i].decision), normal, found[i].decision, faces_[triangle],
                                                  triangle);
         QueryOptions whole = options;
         whole.max_fraction = 1;

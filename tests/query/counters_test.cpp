@@ -1,0 +1,87 @@
+// What a query went through is counted, all of it, one by one and in batches; and the longest of segments ask little of the exact room.
+#include <numeric>
+
+#include <gtest/gtest.h>
+#include <pierce/collision_mesh.h>
+#include <support/meshes.h>
+#include <support/segments.h>
+
+namespace pierce::test {
+namespace {
+
+void expect_equal(const QueryCounters& x, const QueryCounters& y) {
+    EXPECT_EQ(x.queries, y.queries);
+    EXPECT_EQ(x.cells, y.cells);
+    EXPECT_EQ(x.triangles, y.triangles);
+    EXPECT_EQ(x.exact_decisions, y.exact_decisions);
+    EXPECT_EQ(x.exact_orders, y.exact_orders);
+    EXPECT_EQ(x.exact_values, y.exact_values);
+    EXPECT_EQ(x.exact_sides, y.exact_sides);
+    EXPECT_EQ(x.retreats, y.retreats);
+}
+
+template <class Scalar>
+void expect_all_counted() {
+    const TriangleSoup<Scalar> soup = moved<Scalar>(bumpy_sphere(6), 1, {100, 0, 0});  // so that sides of points are close
+    const CollisionMesh<Scalar> mesh(soup.view());
+    const Extent<Scalar> extent(soup.view());
+    Random random(4);
+    std::vector<Segment<Scalar>> segments;
+    for (int i = 0; i < 3000; ++i) segments.push_back(mixed_segment(soup.view(), extent, random));
+
+    QueryCounters single;
+    for (const Segment<Scalar>& s : segments) (void)mesh.first_hit(s, {.counters = &single});
+    EXPECT_GT(single.exact_decisions, 100U);
+    EXPECT_GT(single.exact_orders, 100U);
+    EXPECT_GT(single.exact_values, 100U);
+    EXPECT_GT(single.exact_sides, 0U);
+    EXPECT_GT(single.retreats, 0U);
+
+    QueryCounters batch;
+    BatchOptions options;
+    options.counters = &batch;
+    std::vector<std::optional<Hit<Scalar>>> hits(segments.size());
+    mesh.first_hits(segments, hits, options);
+    expect_equal(batch, single);
+
+    // Values that nobody but the caller's own test sees are values all the same.
+    QueryCounters asked;
+    const auto no = [](const Contact&) { return false; };
+    for (const Segment<Scalar>& s : segments) (void)mesh.any_hit(s, {.accept = no, .counters = &asked});
+    QueryCounters unasked;
+    for (const Segment<Scalar>& s : segments) (void)mesh.any_hit(s, {.counters = &unasked});
+    EXPECT_GT(asked.exact_values, unasked.exact_values);
+}
+
+TEST(Counters, count_all_exact_arithmetic_in_float) { expect_all_counted<float>(); }
+TEST(Counters, count_all_exact_arithmetic_in_double) { expect_all_counted<double>(); }
+
+// A segment so long that no grid can be walked: each triangle is asked once, and the filter does not work on such a length.
+TEST(Counters, the_longest_segments_ask_for_each_triangle_once) {
+    const TriangleSoup<double> soup = bumpy_sphere(6);
+    const CollisionMesh<double> mesh(soup.view());
+    const std::size_t triangles = soup.triangles.size();
+    Random random(5);
+    int crossed = 0;
+    for (int i = 0; i < 50; ++i) {
+        const Vec3<double> d = 1e300 * random.direction();
+        // From far away to far away past the middle, or from within.
+        const Segment<double> segment{random.chance(0.5) ? Vec3<double>(-d) : Vec3<double>(0.1 * random.in_cube()), d};
+        QueryCounters counters;
+        crossed += mesh.any_hit(segment, {.sides = Sides::both, .counters = &counters}) ? 1 : 0;
+        EXPECT_LE(counters.exact_decisions, triangles);
+        EXPECT_LE(counters.triangles, triangles);
+        counters = {};
+        (void)mesh.crossings(segment, &counters);
+        EXPECT_LE(counters.exact_decisions, triangles);
+        EXPECT_LE(counters.triangles, triangles);
+    }
+    EXPECT_EQ(crossed, 50);
+    // One that misses everything asks for each.
+    QueryCounters counters;
+    EXPECT_FALSE(mesh.any_hit({{3, 3, 3}, {3, 1e300, 3}}, {.counters = &counters}));
+    EXPECT_LE(counters.exact_decisions, triangles);
+}
+
+}  // namespace
+}  // namespace pierce::test
