@@ -1,5 +1,8 @@
 // The grid, the filter and the order of work change no bit of an answer: CollisionMesh against its naive twin.
+#include <cstdlib>
+
 #include <gtest/gtest.h>
+#include <kernel/backends.h>
 #include <pierce/collision_mesh.h>
 #include <support/expect_hit.h>
 #include <support/meshes.h>
@@ -69,6 +72,13 @@ TEST(NaiveVsGrid, any_resolution_gives_the_same_bits) {
     const auto soup = moved<float>(polycube(4, 0.5, 2, 7), 0.1, k_nowhere);
     for (const double cell : {1e-3, 0.01, 0.03, 0.1, 0.25, 1e300})
         compare("grid", soup, 1500, 41, {.cell_size = cell, .max_grid_bytes = std::size_t{1} << 24});
+}
+
+// ctest runs all of these for each of the machine's wide kernels.
+TEST(NaiveVsGrid, uses_the_backend_that_is_tested) {
+    const char* backend = std::getenv("PIERCE_BACKEND");
+    EXPECT_EQ(CollisionMesh<float>(MeshView<float>{}).statistics().backend,
+              backend != nullptr ? backend : detail::backends().front()->name);
 }
 
 }  // namespace
