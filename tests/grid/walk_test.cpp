@@ -16,6 +16,8 @@ using Boxes = std::vector<PlainBox<double>>;
 
 /// Whether a segment and a closed box have a point in common, and from which fraction on: clipping in rational numbers.
 bool meets(const Path& path, const PlainBox<double>& box, Q& enter) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (std::max(path.from[k], path.to[k]) < box.low[k] || std::min(path.from[k], path.to[k]) > box.high[k]) return false;
     enter = 0;
     Q leave = 1;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -106,12 +108,12 @@ struct Maker {
     Point point(double reach) { return {coordinate(reach), coordinate(reach), coordinate(reach)}; }
 };
 
-void check_walks(Maker maker, double cell, int count, int segments) {
+void check_walks(Maker maker, double cell, int count, int segments, double usual_size = 0.2) {
     Boxes boxes;
     for (int i = 0; i < count; ++i) {
         const Point a = maker.point(1);
         Point b = a;
-        const double size = maker.random.chance(0.2) ? 2 : 0.2;
+        const double size = maker.random.chance(0.2) ? 10 * usual_size : usual_size;
         for (double& x : b)
             if (maker.random.chance(0.8)) x += maker.scale * maker.random.between(0, size);
         boxes.push_back({a, b});
@@ -162,6 +164,13 @@ TEST(Walk, misses_no_box) {
         for (double scale : {1e-6, 1.0, 1e6})
             for (double offset : {0.0, 1e3, -1e6})
                 for (const double cell : {0.0, 0.25, 0.06, 0.01}) check_walks({Random(++seed), scale, offset, lattice}, cell, 60, 100);
+}
+
+// Several slabs of bricks; and far more cells than boxes, so that the tree has layers.
+TEST(Walk, misses_no_box_among_many) {
+    check_walks({Random(91), 1, 0, false}, 0, 30'000, 60, 0.01);
+    check_walks({Random(92), 1, 1e3, true}, 0, 20'000, 60, 0.01);
+    check_walks({Random(93), 1, 0, false}, 0.002, 5'000, 60, 0.001);
 }
 
 TEST(Walk, misses_no_box_at_the_ends_of_the_number_range) {

@@ -6,6 +6,7 @@
 #include <support/executors.h>
 #include <support/expect_hit.h>
 #include <support/real_meshes.h>
+#include <support/setting.h>
 
 namespace pierce::test {
 namespace {
@@ -208,6 +209,27 @@ TYPED_TEST(Batches, hold_for_every_grid) {
     }
     const CollisionMesh<TypeParam> nothing{MeshView<TypeParam>{}};
     compare<TypeParam>(nothing, segments);
+}
+
+// A thread starts in the arithmetic of the one that made it.
+TYPED_TEST(Batches, hold_in_every_floating_point_environment) {
+    const auto segments = this->segments(1500, 9);
+    const Expected<TypeParam> expected(this->mesh_, segments, {});
+    const Threads threads;
+    for_each_setting([&](int rounding, bool flush) {
+        for (const Executor executor : {Executor(), Executor(threads)}) {
+            BatchOptions options;
+            options.executor = executor;
+            std::vector<std::optional<Hit<TypeParam>>> out(segments.size());
+            {
+                const Setting setting(rounding, flush);
+                this->mesh_.first_hits(segments, out, options);
+                setting.expect_given_back();
+            }
+            for (std::size_t i = 0; i < out.size(); ++i)
+                ASSERT_TRUE(same_answer(out[i], expected.hits[i])) << rounding << ' ' << flush << ' ' << i;
+        }
+    });
 }
 
 TYPED_TEST(Batches, hold_for_a_real_mesh) {
