@@ -173,6 +173,36 @@ TEST(Walk, misses_no_box_among_many) {
     check_walks({Random(93), 1, 0, false}, 0.002, 5'000, 60, 0.001);
 }
 
+// Lines that touch the grid in one point of its border: where they come in along one axis they leave it along another, so that any
+// rounding of either would lose them. All numbers are small integers, so that the lines pass through the point exactly.
+TEST(Walk, misses_no_box_at_the_border_of_the_grid) {
+    Random random(5);
+    for (int i = 0; i < 2000; ++i) {
+        Boxes boxes;
+        const int size = random.between_ints(1, 1000);
+        const Point corner = {random.between_ints(-99, 99) * 1.0, random.between_ints(-99, 99) * 1.0, random.between_ints(-99, 99) * 1.0};
+        Point other = corner;
+        for (double& x : other) x += random.chance(0.5) ? size : -size;
+        for (const Point& p : {corner, other}) boxes.push_back({p, p});
+        Grid grid = grid_of(boxes, size * random.between(0.01, 2));
+        const std::vector<std::uint32_t> order = grid.take_order();
+        const int before = random.between_ints(1, 1 << random.between_ints(0, 20));
+        const int after = random.between_ints(1, 1 << random.between_ints(0, 20));
+        Path path{corner, corner};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int d = random.between_ints(-999, 999);
+            path.from[k] -= before * static_cast<double>(d);
+            path.to[k] += after * static_cast<double>(d);
+        }
+        for (const Way way : {Way::walk, Way::walk_once}) {
+            bool found = false;
+            bool wide = false;
+            find(grid, path, way, 1, wide, [&](std::uint32_t id) { found = found || order[id] == 0; });
+            ASSERT_TRUE(found) << i;
+        }
+    }
+}
+
 TEST(Walk, misses_no_box_at_the_ends_of_the_number_range) {
     for (double scale : {1e-310, 1e-300, 1e300, 5e307})
         for (const double cell : {0.0, 0.1}) check_walks({Random(7), scale, 0, false}, cell, 40, 150);
