@@ -52,6 +52,18 @@ bool asks_nothing(const QueryOptions& options) {
     return !is_limit(options.max_fraction);
 }
 
+/// What single calls count before they find that nothing is asked.
+template <class Scalar>
+void count_only(const Ends<Scalar>& ends, std::size_t count, const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries) {
+    const StandardArithmetic standard;
+    const auto finite = [](const Scalar* x) { return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]); };
+    std::uint64_t invalid = 0;
+    for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(count); ++i)
+        if (!finite(ends.from + i * ends.from_stride) || !finite(ends.to + i * ends.to_stride)) ++invalid;
+    invalid_queries.fetch_add(invalid, std::memory_order_relaxed);
+    if (options.counters != nullptr) add(*options.counters, {.queries = count});
+}
+
 void check_sizes(std::size_t from, std::size_t to, std::size_t out) {
     if (from != to || from != out)
         throw std::invalid_argument("a batch of " + std::to_string(from) + " starts, " + std::to_string(to) + " ends and " +
@@ -63,6 +75,7 @@ std::size_t all_first(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std:
                       const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries) {
     if (asks_nothing(options)) {
         std::fill(out.begin(), out.end(), std::nullopt);
+        count_only(ends, out.size(), options, invalid_queries);
         return 0;
     }
     return in_parts(out.size(), options, invalid_queries,
@@ -76,6 +89,7 @@ std::size_t all_any(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::s
                     std::atomic<std::uint64_t>& invalid_queries) {
     if (asks_nothing(options)) {
         std::fill(out.begin(), out.end(), std::uint8_t{0});
+        count_only(ends, out.size(), options, invalid_queries);
         return 0;
     }
     return in_parts(out.size(), options, invalid_queries,

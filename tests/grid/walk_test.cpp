@@ -16,6 +16,8 @@ using Boxes = std::vector<PlainBox<double>>;
 
 /// Whether a segment and a closed box have a point in common, and from which fraction on: clipping in rational numbers.
 bool meets(const Path& path, const PlainBox<double>& box, Q& enter) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (std::max(path.from[k], path.to[k]) < box.low[k] || std::min(path.from[k], path.to[k]) > box.high[k]) return false;
     enter = 0;
     Q leave = 1;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -112,12 +114,12 @@ struct Maker {
     Point point(double reach) { return {coordinate(reach), coordinate(reach), coordinate(reach)}; }
 };
 
-void check_walks(Maker maker, double cell, int count, int segments) {
+void check_walks(Maker maker, double cell, int count, int segments, double usual_size = 0.2) {
     Boxes boxes;
     for (int i = 0; i < count; ++i) {
         const Point a = maker.point(1);
         Point b = a;
-        const double size = maker.random.chance(0.2) ? 2 : 0.2;
+        const double size = maker.random.chance(0.2) ? 10 * usual_size : usual_size;
         for (double& x : b)
             if (maker.random.chance(0.8)) x += maker.scale * maker.random.between(0, size);
         boxes.push_back({a, b});
@@ -169,6 +171,43 @@ TEST(Walk, misses_no_box) {
         for (double scale : {1e-6, 1.0, 1e6})
             for (double offset : {0.0, 1e3, -1e6})
                 for (const double cell : {0.0, 0.25, 0.06, 0.01}) check_walks({Random(++seed), scale, offset, lattice}, cell, 60, 100);
+}
+
+// Several slabs of bricks; and far more cells than boxes, so that the tree has layers.
+TEST(Walk, misses_no_box_among_many) {
+    check_walks({Random(91), 1, 0, false}, 0, 30'000, 60, 0.01);
+    check_walks({Random(92), 1, 1e3, true}, 0, 20'000, 60, 0.01);
+    check_walks({Random(93), 1, 0, false}, 0.002, 5'000, 60, 0.001);
+}
+
+// Lines that touch the grid in one point of its border: where they come in along one axis they leave it along another, so that any
+// rounding of either would lose them. All numbers are small integers, so that the lines pass through the point exactly.
+TEST(Walk, misses_no_box_at_the_border_of_the_grid) {
+    Random random(5);
+    for (int i = 0; i < 2000; ++i) {
+        Boxes boxes;
+        const int size = random.between_ints(1, 1000);
+        const Point corner = {random.between_ints(-99, 99) * 1.0, random.between_ints(-99, 99) * 1.0, random.between_ints(-99, 99) * 1.0};
+        Point other = corner;
+        for (double& x : other) x += random.chance(0.5) ? size : -size;
+        for (const Point& p : {corner, other}) boxes.push_back({p, p});
+        Grid grid = grid_of(boxes, size * random.between(0.01, 2));
+        const std::vector<std::uint32_t> order = grid.take_order();
+        const int before = random.between_ints(1, 1 << random.between_ints(0, 20));
+        const int after = random.between_ints(1, 1 << random.between_ints(0, 20));
+        Path path{corner, corner};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int d = random.between_ints(-999, 999);
+            path.from[k] -= before * static_cast<double>(d);
+            path.to[k] += after * static_cast<double>(d);
+        }
+        for (const Way way : {Way::walk, Way::walk_once}) {
+            bool found = false;
+            bool wide = false;
+            find(grid, path, way, 1, wide, [&](std::uint32_t id) { found = found || order[id] == 0; });
+            ASSERT_TRUE(found) << i;
+        }
+    }
 }
 
 TEST(Walk, misses_no_box_at_the_ends_of_the_number_range) {

@@ -63,10 +63,11 @@ void run(std::int64_t decisions, int lowest_power, int highest_power) {
         GmpOracle oracle;
         for (std::int64_t i = 0; i < share && tally.wrong == 0; i += 4) {
             const auto family = static_cast<Family>(random.below(k_family_names.size()));
-            // The size of everyday coordinates, any size that the filter works in (filter.h, 5), and both ends of the range.
+            // The size of everyday coordinates; any size that the filter works in, and those where its products become denormal or
+            // overflow; and both ends of the range.
             int power = random.between_ints(-20, 20);
             const double kind = random.unit();
-            if (kind < 0.3) power = random.between_ints(std::max(lowest_power, -310), std::min(highest_power, 310));
+            if (kind < 0.3) power = random.between_ints(std::max(lowest_power, -380), std::min(highest_power, 360));
             else if (kind < 0.4) power = random.between_ints(lowest_power, lowest_power + 60);
             else if (kind < 0.5) power = random.between_ints(highest_power - 30, highest_power);
             const double offset = random.chance(0.5) ? 0 : random.chance(0.5) ? 1e3 : 1e6;

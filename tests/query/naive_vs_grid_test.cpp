@@ -1,6 +1,10 @@
 // The grid, the filter and the order of work change no bit of an answer: CollisionMesh against its naive twin.
+#include <cstdlib>
+
 #include <gtest/gtest.h>
+#include <kernel/backends.h>
 #include <pierce/collision_mesh.h>
+#include <support/executors.h>
 #include <support/expect_hit.h>
 #include <support/meshes.h>
 #include <support/naive.h>
@@ -69,6 +73,44 @@ TEST(NaiveVsGrid, any_resolution_gives_the_same_bits) {
     const auto soup = moved<float>(polycube(4, 0.5, 2, 7), 0.1, k_nowhere);
     for (const double cell : {1e-3, 0.01, 0.03, 0.1, 0.25, 1e300})
         compare("grid", soup, 1500, 41, {.cell_size = cell, .max_grid_bytes = std::size_t{1} << 24});
+}
+
+// Hits at the same fraction, of triangles of the same face and of others; faces that are in an order of their own.
+TEST(NaiveVsGrid, faces_that_were_cut_into_triangles) {
+    auto soup = moved<float>(polycube(4, 0.5, 2, 7), 0.1, k_nowhere);
+    const auto count = static_cast<std::uint32_t>(soup.triangles.size());
+    for (std::uint32_t i = 0; i < count; ++i) soup.faces.push_back((i / 4 * 37) % count);
+    compare("faces", soup, 6000, 51);
+}
+
+TEST(NaiveVsGrid, built_in_parts_in_any_order_it_is_the_same) {
+    const auto soup = moved<float>(terrain(150, 0.02, 3), 1, k_nowhere);
+    const Extent<float> extent(soup.view());
+    const CollisionMesh<float> one(soup.view());
+    const Reversed reversed;
+    const Threads threads;
+    for (const Executor executor : {Executor(reversed), Executor(threads)}) {
+        const CollisionMesh<float> other(soup.view(), {.executor = executor});
+        EXPECT_EQ(other.statistics().grid_references, one.statistics().grid_references);
+        EXPECT_EQ(other.statistics().bytes, one.statistics().bytes);
+        Random random(61);
+        for (int i = 0; i < 5000; ++i) {
+            const Segment<float> segment = mixed_segment(soup.view(), extent, random);
+            QueryCounters counts;
+            QueryCounters other_counts;
+            const auto hit = one.first_hit(segment, {.counters = &counts});
+            ASSERT_TRUE(same_answer(hit, other.first_hit(segment, {.counters = &other_counts}))) << to_text(segment);
+            ASSERT_EQ(counts.cells, other_counts.cells);
+            ASSERT_EQ(counts.triangles, other_counts.triangles);
+        }
+    }
+}
+
+// ctest runs all of these for each of the machine's wide kernels.
+TEST(NaiveVsGrid, uses_the_backend_that_is_tested) {
+    const char* backend = std::getenv("PIERCE_BACKEND");
+    EXPECT_EQ(CollisionMesh<float>(MeshView<float>{}).statistics().backend,
+              backend != nullptr ? backend : detail::backends().front()->name);
 }
 
 }  // namespace

@@ -1,0 +1,88 @@
+// Queries, one at a time and in batches, allocate nothing. An executable of its own: it counts every call of operator new.
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+
+#include <query/batch_world.h>
+#include <support/executors.h>
+
+namespace {
+std::atomic<std::size_t> allocations = 0;
+
+void* counted(std::size_t size) {
+    ++allocations;
+    if (void* memory = std::malloc(size != 0 ? size : 1)) return memory;
+    throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size); }
+void* operator new[](std::size_t size) { return counted(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace pierce::test {
+namespace {
+
+bool failed = false;
+
+template <class Call>
+void expect_none(const char* what, Call&& call) {
+    call();  // what a first call keeps for later ones is no business of this test
+    const std::size_t before = allocations;
+    call();
+    if (allocations == before) return;
+    std::printf("%s: %zu allocations\n", what, allocations - before);
+    failed = true;
+}
+
+template <class Scalar>
+void check() {
+    const TriangleSoup<Scalar> soup = lattice_and_shards<Scalar>();
+    const CollisionMesh<Scalar> mesh(soup.view());
+    const std::vector<Segment<Scalar>> segments = batch_segments(soup.view(), 5000, 1);
+    const auto count = static_cast<Eigen::Index>(segments.size());
+    Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> state(7, count);
+    for (Eigen::Index i = 0; i < count; ++i)
+        state.col(i) << segments[static_cast<std::size_t>(i)].from, segments[static_cast<std::size_t>(i)].to, 0;
+    std::vector<std::optional<Hit<Scalar>>> hits(segments.size());
+    std::vector<std::optional<SweepHit<Scalar>>> swept(segments.size());
+    std::vector<std::uint8_t> any(segments.size());
+    const Reversed reversed;
+    QueryCounters counters;
+    BatchOptions options;
+    options.executor = reversed;
+    options.counters = &counters;
+    options.sides = Sides::both;
+    const auto accept = [](const Contact& contact) { return contact.face % 5 != 0; };
+    options.accept = accept;
+
+    expect_none("first_hits", [&] { mesh.first_hits(segments, hits); });
+    expect_none("first_hits with options", [&] { mesh.first_hits(segments, hits, options); });
+    expect_none("any_hits", [&] { mesh.any_hits(segments, any, options); });
+    expect_none("first_hits of blocks", [&] { mesh.first_hits(state.topRows(3), state.middleRows(3, 3), hits, options); });
+    expect_none("sweep_points of blocks", [&] { mesh.sweep_points(state.topRows(3), state.middleRows(3, 3), swept, options); });
+    std::array<Hit<Scalar>, 8> all;
+    expect_none("single calls", [&] {
+        for (std::size_t i = 0; i < segments.size(); i += 5) {
+            hits[i] = mesh.first_hit(segments[i], options);
+            any[i] = mesh.any_hit(segments[i]) && mesh.all_hits(segments[i], all) > 0 && mesh.crossings(segments[i]) != 0 ? 1 : 0;
+        }
+    });
+    if (counters.exact_decisions == 0) {
+        std::puts("nothing was decided exactly");
+        failed = true;
+    }
+}
+
+}  // namespace
+}  // namespace pierce::test
+
+int main() {
+    pierce::test::check<float>();
+    pierce::test::check<double>();
+    return pierce::test::failed ? 1 : 0;
+}
