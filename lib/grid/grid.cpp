@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include <grid/level_builder.h>
+#include <raw_array.h>
 
 namespace pierce::detail {
 
@@ -20,6 +22,7 @@ constexpr double k_cell = 2.5;
 constexpr double k_next_level = 4;
 constexpr double k_largest_box = 1.3;
 constexpr std::size_t k_most_levels = 24;
+constexpr std::size_t k_chunk = 1 << 13;  ///< of work for one thread
 constexpr double k_finest = 0x1p24;       ///< cells at the usual size are this many times as wide as those of the finest level
 constexpr double k_crowded = 160;         ///< see crowd()
 constexpr double k_most_extra = 0.5;  ///< entries for each triangle that is there already, rather than a level more
@@ -43,39 +46,95 @@ double usual_extent(std::span<const PlainBox<Scalar>> boxes) {
     return *place;
 }
 
+void extend(Box& box, const Box& other) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.low[k] = std::min(box.low[k], other.low[k]);
+        box.high[k] = std::max(box.high[k], other.high[k]);
+    }
+}
+
 /// The boxes of one level.
 struct Share {
     Box box{{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
              std::numeric_limits<double>::infinity()},
             {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
              -std::numeric_limits<double>::infinity()}};
-    std::vector<std::uint32_t> ids;
+    RawArray<std::uint32_t> ids;
 
     void take(Share& other) {
-        std::vector<std::uint32_t> both(ids.size() + other.ids.size());
+        RawArray<std::uint32_t> both(ids.size() + other.ids.size());
         std::merge(ids.begin(), ids.end(), other.ids.begin(), other.ids.end(), both.begin());
-        ids.swap(both);
-        other.ids.clear();
-        for (std::size_t k = 0; k < 3; ++k) {
-            box.low[k] = std::min(box.low[k], other.box.low[k]);
-            box.high[k] = std::max(box.high[k], other.box.high[k]);
-        }
-    }
-
-    template <class Scalar>
-    void add(std::uint32_t id, const PlainBox<Scalar>& other) {
-        ids.push_back(id);
-        for (std::size_t k = 0; k < 3; ++k) {
-            box.low[k] = std::min(box.low[k], static_cast<double>(other.low[k]));
-            box.high[k] = std::max(box.high[k], static_cast<double>(other.high[k]));
-        }
+        ids = std::move(both);
+        other.ids = {};
+        extend(box, other.box);
     }
 };
 
+using Shares = std::array<Share, k_most_levels>;
+
+/// Which level each box is for, by its size.
+template <class Scalar>
+Shares share_out(std::span<const PlainBox<Scalar>> boxes, double finest, const Executor& executor) {
+    std::array<double, k_most_levels> largest{};  // of a level's boxes
+    for (std::size_t level = 0; level < k_most_levels; ++level)
+        largest[level] = level + 1 == k_most_levels ? std::numeric_limits<double>::infinity()
+                                                    : (level == 0 ? k_largest_box * finest : largest[level - 1] * k_next_level);
+    constexpr std::size_t k_usual = std::min<std::size_t>(std::countr_zero(static_cast<std::uint64_t>(k_finest)) / 2, k_most_levels - 1);
+    struct Chunk {
+        std::array<std::uint32_t, k_most_levels> count{};
+        std::array<PlainBox<Scalar>, k_most_levels> box;
+    };
+    std::vector<Chunk> chunks((boxes.size() + k_chunk - 1) / k_chunk);
+    RawArray<std::uint8_t> levels(boxes.size());
+    constexpr std::uint8_t k_none = 0xff;
+    executor(chunks.size(), [&](std::size_t c) {
+        Chunk& chunk = chunks[c];
+        const std::size_t end = std::min(boxes.size(), (c + 1) * k_chunk);
+        for (std::size_t i = c * k_chunk; i < end; ++i) {
+            if (!boxes[i].listed()) {
+                levels[i] = k_none;
+                continue;
+            }
+            const double reach = extent(boxes[i]);
+            std::size_t level = k_usual;
+            while (reach > largest[level]) ++level;
+            while (level > 0 && reach <= largest[level - 1]) --level;
+            levels[i] = static_cast<std::uint8_t>(level);
+            PlainBox<Scalar>& box = chunk.box[level];
+            if (chunk.count[level]++ == 0) box = boxes[i];
+            for (std::size_t k = 0; k < 3; ++k) {
+                box.low[k] = std::min(box.low[k], boxes[i].low[k]);
+                box.high[k] = std::max(box.high[k], boxes[i].high[k]);
+            }
+        }
+    });
+    Shares shares;
+    for (std::size_t level = 0; level < k_most_levels; ++level) {
+        std::uint32_t before = 0;
+        for (Chunk& chunk : chunks) {
+            const std::uint32_t count = std::exchange(chunk.count[level], before);
+            before += count;
+            if (count == 0) continue;
+            const PlainBox<Scalar>& box = chunk.box[level];
+            const auto point = [](const std::array<Scalar, 3>& p) {
+                return Point{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+            };
+            extend(shares[level].box, {point(box.low), point(box.high)});
+        }
+        shares[level].ids = RawArray<std::uint32_t>(before);
+    }
+    executor(chunks.size(), [&](std::size_t c) {
+        const std::size_t end = std::min(boxes.size(), (c + 1) * k_chunk);
+        for (std::size_t i = c * k_chunk; i < end; ++i)
+            if (levels[i] != k_none) shares[levels[i]].ids[chunks[c].count[levels[i]]++] = static_cast<std::uint32_t>(i);
+    });
+    return shares;
+}
+
 // Numbers sorted by keys, stably: the digits of a byte, from the last (as in Knuth, volume 3, 5.2.5).
-void sort_by_key(std::vector<std::uint32_t>& keys, std::vector<std::uint32_t>& numbers) {
-    std::vector<std::uint32_t> other_keys(keys.size());
-    std::vector<std::uint32_t> other_numbers(numbers.size());
+void sort_by_key(RawArray<std::uint32_t>& keys, RawArray<std::uint32_t>& numbers) {
+    RawArray<std::uint32_t> other_keys(keys.size());
+    RawArray<std::uint32_t> other_numbers(numbers.size());
     constexpr int k_bits = 11;
     std::uint32_t used = 0;
     for (const std::uint32_t key : keys) used |= key;
@@ -89,12 +148,10 @@ void sort_by_key(std::vector<std::uint32_t>& keys, std::vector<std::uint32_t>& n
             other_keys[to] = keys[i];
             other_numbers[to] = numbers[i];
         }
-        keys.swap(other_keys);
-        numbers.swap(other_numbers);
+        std::swap(keys, other_keys);
+        std::swap(numbers, other_numbers);
     }
 }
-
-constexpr std::size_t k_chunk = 1 << 14;
 
 template <class Scalar>
 Steps steps_of(const Raster& raster, const PlainBox<Scalar>& box) {
@@ -139,9 +196,9 @@ double cells_for(const Share& share, std::span<const PlainBox<Scalar>> boxes, do
 
 /// The triangles of a level in the order of their cells.
 template <class Scalar>
-void sort_by_cell(const Raster& raster, std::span<const PlainBox<Scalar>> boxes, std::vector<std::uint32_t>& ids,
+void sort_by_cell(const Raster& raster, std::span<const PlainBox<Scalar>> boxes, RawArray<std::uint32_t>& ids,
                   const Executor& executor) {
-    std::vector<std::uint32_t> keys(ids.size());
+    RawArray<std::uint32_t> keys(ids.size());
     executor((ids.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
         const std::size_t end = std::min(ids.size(), (chunk + 1) * k_chunk);
         for (std::size_t i = chunk * k_chunk; i < end; ++i) {
@@ -165,9 +222,9 @@ void sort_by_cell(const Raster& raster, std::span<const PlainBox<Scalar>> boxes,
 
 /// A level of the triangles `ids`, which it sorts; they get the numbers from `first` on.
 template <class Scalar>
-Level build_level(const Box& box, std::vector<std::uint32_t>& ids, std::uint32_t first, double size,
+Level build_level(const Box& box, RawArray<std::uint32_t>& ids, std::uint32_t first, double size,
                   std::span<const PlainBox<Scalar>> boxes, std::size_t max_bytes, const Executor& executor) {
-    std::vector<Steps> steps(ids.size());
+    RawArray<Steps> steps(ids.size());
     bool sorted = false;
     for (;; size *= 1.25) {
         const Raster raster(box, size);
@@ -178,12 +235,12 @@ Level build_level(const Box& box, std::vector<std::uint32_t>& ids, std::uint32_t
             const std::size_t end = std::min(steps.size(), (chunk + 1) * k_chunk);
             for (std::size_t i = chunk * k_chunk; i < end; ++i) steps[i] = steps_of(raster, boxes[ids[i]]);
         });
-        LevelBuilder builder(raster, first, steps);
+        LevelBuilder builder(raster, first, std::span<const Steps>(steps.data(), steps.size()), executor);
         // 16 bytes a reference: a start for each cell that lists something, and there are at most as many of these. For roots, see
         // the builder; further nodes are few.
         const double bytes = 16.0 * static_cast<double>(builder.reference_count()) + 8.0 * static_cast<double>(ids.size()) + 1024;
         if (!single && (bytes > static_cast<double>(max_bytes) || builder.reference_count() > 0xffff'fff0U)) continue;
-        return builder.build(executor);
+        return builder.build();
     }
 }
 
@@ -193,20 +250,9 @@ template <class Scalar>
 Grid::Grid(std::span<const PlainBox<Scalar>> boxes, const GridOptions& options, const Executor& executor) {
     const double size = options.cell_size > 0 ? options.cell_size : std::max(k_cell * usual_extent(boxes), 0x1p-1000);
     const double finest = options.cell_size > 0 ? size : size / k_finest;
-    std::array<Share, k_most_levels> shares;
+    Shares shares = share_out(boxes, finest, executor);
     std::size_t listed = 0;
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-        if (!boxes[i].listed()) continue;
-        const double reach = extent(boxes[i]);
-        std::size_t level = 0;
-        double largest = k_largest_box * finest;
-        while (level + 1 < k_most_levels && reach > largest) {
-            ++level;
-            largest *= k_next_level;
-        }
-        shares[level].add(i, boxes[i]);
-        ++listed;
-    }
+    for (const Share& share : shares) listed += share.ids.size();
     // Those that are smaller than the rest need cells of their own only where they are crowded; a few that are larger are not
     // worth a level, which every query has to ask.
     double cell = finest;
@@ -240,10 +286,7 @@ Grid::Grid(std::span<const PlainBox<Scalar>> boxes, const GridOptions& options, 
                                           static_cast<std::size_t>(part * static_cast<double>(options.max_bytes)), executor));
             order_.insert(order_.end(), share.ids.begin(), share.ids.end());
             if (levels_.size() == 1) bounds_ = share.box;
-            for (std::size_t k = 0; k < 3; ++k) {
-                bounds_.low[k] = std::min(bounds_.low[k], share.box.low[k]);
-                bounds_.high[k] = std::max(bounds_.high[k], share.box.high[k]);
-            }
+            extend(bounds_, share.box);
         }
         cell *= k_next_level;
     }

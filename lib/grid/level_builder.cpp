@@ -5,6 +5,7 @@
 #include <bit>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace pierce::detail {
 
@@ -12,16 +13,17 @@ namespace {
 
 // Enough for a slab's counters to stay in the second-level cache, and for slabs to share among threads.
 constexpr std::size_t k_boxes_a_slab = 4096;
+constexpr std::size_t k_chunk = 1 << 14;  ///< of boxes, for one thread
 
 }  // namespace
 
-LevelBuilder::LevelBuilder(const Raster& raster, std::uint32_t first, std::span<const Steps> boxes)
-    : raster_(raster), first_(first), boxes_(boxes) {
+LevelBuilder::LevelBuilder(const Raster& raster, std::uint32_t first, std::span<const Steps> boxes, const Executor& executor)
+    : raster_(raster), first_(first), boxes_(boxes), executor_(executor) {
     place_roots();
     const auto wanted = static_cast<int>(std::clamp<std::size_t>(boxes.size() / k_boxes_a_slab, 1, std::size_t{1} << 20));
     layers_ = std::max(1, roots_[slow_] / wanted);
     slabs_ = static_cast<std::size_t>((roots_[slow_] + layers_ - 1) / layers_);
-    sort_by_slab();
+    count_slabs();
 }
 
 // Roots as small as they may be for eight bytes of them a triangle: bricks, if the mesh fills its box as evenly as a surface does.
@@ -51,11 +53,21 @@ LevelBuilder::Cells LevelBuilder::cells_of(const Steps& box) const {
     return cells;
 }
 
-void LevelBuilder::sort_by_slab() {
-    slab_starts_.assign(slabs_ + 1, 0);
-    std::vector<std::size_t> references(slabs_ + 1, 0);
-    for (const Steps& box : boxes_) {
-        const Cells cells = cells_of(box);
+// Calls visit(chunk, box's number) for all boxes, chunk by chunk.
+template <class Visit>
+void LevelBuilder::each_chunk(Visit&& visit) const {
+    executor_((boxes_.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
+        const std::size_t end = std::min(boxes_.size(), (chunk + 1) * k_chunk);
+        for (std::size_t i = chunk * k_chunk; i < end; ++i) visit(chunk, i);
+    });
+}
+
+void LevelBuilder::count_slabs() {
+    const std::size_t chunks = (boxes_.size() + k_chunk - 1) / k_chunk;
+    chunk_starts_.assign(chunks * slabs_, 0);
+    std::vector<std::size_t> references(chunks * slabs_, 0);
+    each_chunk([&](std::size_t chunk, std::size_t i) {
+        const Cells cells = cells_of(boxes_[i]);
         std::size_t area = 1;
         for (std::size_t k = 0; k < 3; ++k)
             if (k != slow_) area *= static_cast<std::size_t>(cells.last[k] - cells.first[k] + 1);
@@ -63,16 +75,36 @@ void LevelBuilder::sort_by_slab() {
         for (int slab = slab_of(cells.first[slow_]); slab <= last; ++slab) {
             const int first_cell = std::max(cells.first[slow_], slab * layers_ << root_shift_);
             const int last_cell = std::min(cells.last[slow_], ((slab + 1) * layers_ << root_shift_) - 1);
-            ++slab_starts_[static_cast<std::size_t>(slab) + 1];
-            references[static_cast<std::size_t>(slab) + 1] += area * static_cast<std::size_t>(last_cell - first_cell + 1);
+            ++chunk_starts_[chunk * slabs_ + static_cast<std::size_t>(slab)];
+            references[chunk * slabs_ + static_cast<std::size_t>(slab)] +=
+                area * static_cast<std::size_t>(last_cell - first_cell + 1);
         }
-    }
+    });
     references_ = std::accumulate(references.begin(), references.end(), std::size_t{0});
     if (references_ > 0xffff'fff0U) return;  // the caller has to choose larger cells
-    std::partial_sum(slab_starts_.begin(), slab_starts_.end(), slab_starts_.begin());
-    reference_starts_.assign(slabs_ + 1, 0);
-    for (std::size_t slab = 0; slab < slabs_; ++slab)
-        reference_starts_[slab + 1] = reference_starts_[slab] + static_cast<std::uint32_t>(references[slab + 1]);
+    slab_starts_.assign(1, 0);
+    reference_starts_.assign(1, 0);
+    for (std::size_t slab = 0; slab < slabs_; ++slab) {
+        std::uint32_t listed = slab_starts_.back();
+        std::size_t sum = 0;
+        for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+            std::uint32_t& start = chunk_starts_[chunk * slabs_ + slab];
+            listed += std::exchange(start, listed);
+            sum += references[chunk * slabs_ + slab];
+        }
+        slab_starts_.push_back(listed);
+        reference_starts_.push_back(reference_starts_.back() + static_cast<std::uint32_t>(sum));
+    }
+}
+
+void LevelBuilder::sort_by_slab() {
+    sorted_ = RawArray<std::uint32_t>(slab_starts_.back());
+    each_chunk([&](std::size_t chunk, std::size_t i) {
+        const Cells cells = cells_of(boxes_[i]);
+        const int last = slab_of(cells.last[slow_]);
+        for (int slab = slab_of(cells.first[slow_]); slab <= last; ++slab)
+            sorted_[chunk_starts_[chunk * slabs_ + static_cast<std::size_t>(slab)]++] = static_cast<std::uint32_t>(i);
+    });
 }
 
 template <class Visit>
@@ -160,9 +192,9 @@ void LevelBuilder::measure_empty_space(Level& level) const {
     }
 }
 
-void LevelBuilder::build_dense(Level& level, const Executor& executor) const {
+void LevelBuilder::build_dense(Level& level) const {
     std::vector<std::vector<std::uint32_t>> starts(slabs_);
-    executor(slabs_, [&](std::size_t slab) { fill_slab(level, slab, starts[slab]); });
+    executor_(slabs_, [&](std::size_t slab) { fill_slab(level, slab, starts[slab]); });
     std::size_t before = 0;
     for (std::size_t slab = 0; slab < slabs_; ++slab) {
         if (before != 0) {
@@ -233,7 +265,7 @@ void LevelBuilder::build_sparse(Level& level) const {
     level.nodes_.shrink_to_fit();
 }
 
-Level LevelBuilder::build(const Executor& executor) {
+Level LevelBuilder::build() {
     Level level;
     level.raster_ = raster_;
     level.references_ = references_;
@@ -243,14 +275,8 @@ Level LevelBuilder::build(const Executor& executor) {
     std::fill_n(level.boxes_.get() + references_, Level::k_beyond, 0);
     level.ids_ = std::make_unique_for_overwrite<std::uint32_t[]>(references_);
     if (root_shift_ == 2) {
-        sorted_.resize(slab_starts_.back());
-        std::vector<std::uint32_t> next(slab_starts_.begin(), slab_starts_.end() - 1);
-        for (std::size_t i = 0; i < boxes_.size(); ++i) {
-            const Cells cells = cells_of(boxes_[i]);
-            for (int slab = slab_of(cells.first[slow_]); slab <= slab_of(cells.last[slow_]); ++slab)
-                sorted_[next[static_cast<std::size_t>(slab)]++] = static_cast<std::uint32_t>(i);
-        }
-        build_dense(level, executor);
+        sort_by_slab();
+        build_dense(level);
     } else {
         build_sparse(level);
     }

@@ -6,18 +6,18 @@
 
 #include <grid/level.h>
 #include <pierce/executor.h>
+#include <raw_array.h>
 
 namespace pierce::detail {
 
 class LevelBuilder {
   public:
     /// The box of triangle `first + i` is `boxes[i]`.
-    LevelBuilder(const Raster& raster, std::uint32_t first, std::span<const Steps> boxes);
+    LevelBuilder(const Raster& raster, std::uint32_t first, std::span<const Steps> boxes, const Executor& executor);
 
     /// Entries of all cell lists together: known before anything is allocated.
     [[nodiscard]] std::size_t reference_count() const { return references_; }
-    [[nodiscard]] Level build(const Executor& executor);
-
+    [[nodiscard]] Level build();
 
   private:
     struct Cells {
@@ -27,9 +27,12 @@ class LevelBuilder {
 
     [[nodiscard]] Cells cells_of(const Steps& box) const;
     [[nodiscard]] int slab_of(int cell) const { return (cell >> root_shift_) / layers_; }
+    void count_slabs();
     void sort_by_slab();
     void place_roots();
-    void build_dense(Level& level, const Executor& executor) const;
+    template <class Visit>
+    void each_chunk(Visit&& visit) const;
+    void build_dense(Level& level) const;
     void build_sparse(Level& level) const;
     void fill_slab(Level& level, std::size_t slab, std::vector<std::uint32_t>& starts) const;
     void measure_empty_space(Level& level) const;
@@ -39,6 +42,7 @@ class LevelBuilder {
     const Raster raster_;
     const std::uint32_t first_;
     const std::span<const Steps> boxes_;
+    const Executor& executor_;
     int root_shift_ = 2;
     std::array<int, 3> roots_{};
     std::array<std::size_t, 3> strides_{};
@@ -47,8 +51,9 @@ class LevelBuilder {
     std::size_t slabs_ = 1;
     std::size_t references_ = 0;
     std::vector<std::uint32_t> slab_starts_;       ///< in `sorted_`
+    std::vector<std::uint32_t> chunk_starts_;      ///< the same for each chunk of boxes and slab in it
     std::vector<std::uint32_t> reference_starts_;  ///< in the lists of the level
-    std::vector<std::uint32_t> sorted_;            ///< places in `boxes_`, by slab; one that lies in two is in both
+    RawArray<std::uint32_t> sorted_;               ///< places in `boxes_`, by slab; one that lies in two is in both
 };
 
 }  // namespace pierce::detail

@@ -1,6 +1,8 @@
 // What a mesh must be before anything is built from it.
 #include <mesh/check_mesh.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -11,15 +13,41 @@ namespace {
 
 constexpr std::size_t k_most = std::numeric_limits<std::uint32_t>::max() - 1;
 
+// Whether there is nothing to complain about; what there is, is looked for again one by one.
+template <class Scalar>
+bool is_sound(const MeshView<Scalar>& mesh, const Executor& executor) {
+    constexpr std::size_t k_chunk = 1 << 14;
+    std::atomic<bool> sound = true;
+    const auto each = [&](std::size_t count, auto&& holds) {
+        executor((count + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
+            const std::size_t end = std::min(count, (chunk + 1) * k_chunk);
+            bool all = true;
+            for (std::size_t i = chunk * k_chunk; i < end; ++i) all = holds(i) && all;
+            if (!all) sound.store(false, std::memory_order_relaxed);
+        });
+    };
+    const std::size_t vertices = mesh.positions.size();
+    each(vertices, [&](std::size_t v) {
+        const Vec3<Scalar>& p = mesh.positions[v];
+        return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+    });
+    each(mesh.triangles.size(), [&](std::size_t i) {
+        const auto& t = mesh.triangles[i];
+        return (t[0] < vertices) & (t[1] < vertices) & (t[2] < vertices);
+    });
+    return sound;
+}
+
 }  // namespace
 
 template <class Scalar>
-void check_mesh(const MeshView<Scalar>& mesh) {
+void check_mesh(const MeshView<Scalar>& mesh, const Executor& executor) {
     if (mesh.positions.size() > k_most || mesh.triangles.size() > k_most)
         throw MeshError("a mesh can have at most 4294967294 vertices and as many triangles");
     if (!mesh.faces.empty() && mesh.faces.size() != mesh.triangles.size())
         throw MeshError("the mesh numbers " + std::to_string(mesh.faces.size()) + " faces, but has " +
                         std::to_string(mesh.triangles.size()) + " triangles");
+    if (is_sound(mesh, executor)) return;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
         for (int k = 0; k < 3; ++k)
             if (!std::isfinite(mesh.positions[v][k]))
@@ -32,7 +60,7 @@ void check_mesh(const MeshView<Scalar>& mesh) {
                                 std::to_string(mesh.positions.size()) + " vertices");
 }
 
-template void check_mesh(const MeshView<float>&);
-template void check_mesh(const MeshView<double>&);
+template void check_mesh(const MeshView<float>&, const Executor&);
+template void check_mesh(const MeshView<double>&, const Executor&);
 
 }  // namespace pierce::detail

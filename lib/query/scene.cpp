@@ -23,8 +23,8 @@ std::size_t count_faces(const Scene<Scalar>& scene) {
 }
 
 template <class Scalar>
-std::vector<PlainBox<Scalar>> make_boxes(const MeshView<Scalar>& mesh, const Executor& executor) {
-    std::vector<PlainBox<Scalar>> boxes(mesh.triangles.size());
+RawArray<PlainBox<Scalar>> make_boxes(const MeshView<Scalar>& mesh, const Executor& executor) {
+    RawArray<PlainBox<Scalar>> boxes(mesh.triangles.size());
     executor((boxes.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
         const std::size_t end = std::min(boxes.size(), (chunk + 1) * k_chunk);
         for (std::size_t i = chunk * k_chunk; i < end; ++i) {
@@ -48,8 +48,9 @@ std::vector<PlainBox<Scalar>> make_boxes(const MeshView<Scalar>& mesh, const Exe
 template <class Scalar>
 void copy_in_order(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const Executor& executor) {
     const std::size_t count = mesh.triangles.size();
-    scene.triangles.resize(count);
-    scene.coordinates.resize(9 * count + 1);
+    scene.triangles = RawArray<IndexTriple>(count);
+    scene.coordinates = RawArray<Scalar>(9 * count + 1);
+    scene.coordinates[9 * count] = 0;
     executor((count + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
         const std::size_t end = std::min(count, (chunk + 1) * k_chunk);
         for (std::size_t i = chunk * k_chunk; i < end; ++i) {
@@ -75,22 +76,22 @@ float scale_for(const Grid& grid) {
 
 template <class Scalar>
 std::size_t Scene<Scalar>::bytes() const {
-    return sizeof(*this) + coordinates.capacity() * sizeof(Scalar) + triangles.capacity() * sizeof(IndexTriple) +
+    return sizeof(*this) + coordinates.bytes() + triangles.bytes() +
            (triangle_numbers.capacity() + faces.capacity()) * sizeof(std::uint32_t) + grid.bytes();
 }
 
 template <class Scalar>
 Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options) {
-    check_mesh(mesh);
+    check_mesh(mesh, options.executor);
     if (!(options.cell_size >= 0)) throw MeshError("BuildOptions::cell_size must be 0 or more");
     Scene<Scalar> scene;
     scene.backend = &choose_backend(options.backend);
     scene.faces.assign(mesh.faces.begin(), mesh.faces.end());
 
-    const std::vector<PlainBox<Scalar>> boxes = make_boxes(mesh, options.executor);
+    const RawArray<PlainBox<Scalar>> boxes = make_boxes(mesh, options.executor);
     const std::size_t most = options.max_grid_bytes != 0 ? options.max_grid_bytes
                                                          : std::max<std::size_t>(96 * boxes.size(), std::size_t{1} << 16);
-    scene.grid = Grid(std::span(boxes), {options.cell_size, most}, options.executor);
+    scene.grid = Grid(std::span(boxes.data(), boxes.size()), {options.cell_size, most}, options.executor);
     scene.triangle_numbers = scene.grid.take_order();
     const std::size_t listed = scene.triangle_numbers.size();
     scene.triangle_numbers.reserve(boxes.size());

@@ -8,6 +8,7 @@
 #include <kernel/backends.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
+#include <raw_array.h>
 
 namespace pierce::detail {
 
@@ -15,8 +16,8 @@ template <class Scalar>
 struct Scene {
     // Triangles in an order of the library's own, in which what is near in space is near in memory, those of area zero last. `triangle`
     // means a place in it.
-    std::vector<Scalar> coordinates;         ///< of the corners: nine a triangle, and one more that kernels may read
-    std::vector<IndexTriple> triangles;      ///< the caller's vertices
+    RawArray<Scalar> coordinates;         ///< of the corners: nine a triangle, and one more that kernels may read
+    RawArray<IndexTriple> triangles;      ///< the caller's vertices
     std::vector<std::uint32_t> triangle_numbers;  ///< the caller's, by triangle
     std::vector<std::uint32_t> faces;        ///< as in MeshView, by the caller's number; empty when that is the face as well
     std::size_t degenerate = 0;              ///< triangles of area zero

@@ -43,11 +43,15 @@ class Search {
         return probe_;
     }
 
-    /// From here on the kernels work around the path's point at `fraction`, if the path is so long that the errors would be those of
-    /// its length and not of a cell's size.
+    /// The walk has come to this fraction of the path: if that is long, the kernels work around its point there from here on, so that
+    /// errors are those of the cells' size and not of the path's length.
     void come_to(double fraction) {
         prepare();
-        if (!(probe_.reach > k_far)) return;
+        if (probe_.reach > k_far) move_to(fraction);
+    }
+
+    void move_to(double fraction) {
+        prepare();
         for (std::size_t k = 0; k < 3; ++k)
             probe_.origin[k] = static_cast<Scalar>(path.from[k] + fraction * (path.to[k] - path.from[k]));
         probe_.noise = static_cast<float>(rounding() * static_cast<double>(scene.scale) * 1.0001);

@@ -204,8 +204,9 @@ TEST(Walk, misses_no_box_at_the_border_of_the_grid) {
         for (const Way way : {Way::walk, Way::walk_once}) {
             bool found = false;
             bool wide = false;
-            find(grid, path, way, 1, wide, [&](std::uint32_t id) { found = found || order[id] == 0; });
-            ASSERT_TRUE(found) << i;
+            const Backend& backend = *backends()[random.below(backends().size())];
+            find(backend, grid, path, way, 1, wide, [&](std::uint32_t id) { found = found || order[id] == 0; });
+            ASSERT_TRUE(found || wide) << i;
         }
     }
 }

@@ -119,13 +119,13 @@ class Judge {
         refine(search, sides, truth, tally_.refused_moved);
     }
 
-    void refine(const Search<Scalar>& search, Sides sides, int truth, std::atomic<std::int64_t>& refused) {
-        std::array<std::uint32_t, 18> ids{};
-        std::array<std::uint32_t, 18> out{};
-        const auto count = static_cast<unsigned>(random_.below(ids.size()));
+    void refine(Search<Scalar>& search, Sides sides, int truth, std::atomic<std::int64_t>& refused) {
+        std::array<std::uint32_t, 18 + 8> ids{};
+        std::array<std::uint32_t, 18 + 1> out{};
+        const auto count = static_cast<unsigned>(random_.below(18));
         for (unsigned i = 0; i < count; ++i) ids[i] = static_cast<std::uint32_t>(random_.below(6));
         out[count] = k_untouched;
-        const unsigned found = backend_.refine(search.probe, scene_.coordinates.data(), ids.data(), count, out.data());
+        const unsigned found = backend_.refine(search.probe(0x1p-24F), scene_.coordinates.data(), ids.data(), count, out.data());
         bool wrong = out[count] != k_untouched || found > count;
         std::int64_t hits = 0;
         unsigned next = 0;  // what is left is in order: the refused are those that it skips
@@ -142,7 +142,7 @@ class Judge {
         refused += count - found;
         if (!wrong) return;
         ++tally_.wrong;
-        ADD_FAILURE() << "sides " << int(sides) << " scale " << scene_.scale << " noise " << search.probe.noise << ": " << describe(pair_);
+        ADD_FAILURE() << "sides " << int(sides) << " scale " << scene_.scale << " noise " << search.probe(0x1p-24F).noise << ": " << describe(pair_);
     }
 
     int true_side() {
