@@ -11,14 +11,14 @@
 //
 // The bounds are those derived in lanes.h, for u = 2^-52 (any rounding mode), M the largest |component| of a, b, c and D that of d:
 //   |err w| <= 48u D M^2 =: e     |err v| <= 48u M^3 =: e_v     |err s| <= 170u D M^2 =: e_s     |err (v - s)| < 64u M^2 (M + 3 D) =: e_t
-// Underflow: with M and D in [2^-300, 2^300] each bound is at least 2^-948, and what a product of three loses among denormals is at most
-// 2^-1074 * 2^302. Outside of that range the answer is doubtful. So it is for NaN: each comparison is false for it.
+// Underflow: a product loses at most 2^-1074 more. With M and D in [2^-300, 2^300] that is 2^-422 of the u M^2 that one of two factors
+// may lose, and 2^-122 of u D M^2: nothing in 48u. Outside of that range the answer is doubtful. So it is for NaN: each comparison is
+// false for it.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
-#include <point.h>
+#include <kernel/triple.h>
 
 namespace pierce::detail {
 
@@ -35,31 +35,24 @@ struct Filtered {
 /// The volumes of a triangle and a path, computed, and how far they may be off.
 struct Volumes64 {
     Volumes64(const Corners& corners, const Path& path) {
-        const Point a = relative(corners[0], path.from);
-        const Point b = relative(corners[1], path.from);
-        const Point c = relative(corners[2], path.from);
-        const Point d = relative(path.to, path.from);
+        const Triple<double> a = difference<double>(corners[0], path.from);
+        const Triple<double> b = difference<double>(corners[1], path.from);
+        const Triple<double> c = difference<double>(corners[2], path.from);
+        const Triple<double> d = difference<double>(path.to, path.from);
         const double most = std::max({largest(a), largest(b), largest(c)});
         const double reach = largest(d);
-        in_range = most >= 0x1p-300 && most <= 0x1p300 && reach >= 0x1p-300 && reach <= 0x1p300;
-        const Point bc = cross(b, c);
+        in_range = is_tame(most) && is_tame(reach);
+        const Triple<double> bc = cross(b, c);
         weight = {dot(d, bc), dot(d, cross(c, a)), dot(d, cross(a, b))};
         v = dot(a, bc);
         s = weight[0] + weight[1] + weight[2];
-        constexpr double u = 0x1p-52;
+        constexpr double u = Arithmetic<double>::unit;
         const double square = u * (most * most);
         e = 48 * reach * square;
         ev = 48 * most * square;
         es = 170 * reach * square;
         et = 64 * square * (most + 3 * reach);
     }
-
-    static Point relative(const Point& x, const Point& origin) { return {x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]}; }
-    static Point cross(const Point& p, const Point& q) {
-        return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-    }
-    static double dot(const Point& p, const Point& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-    static double largest(const Point& p) { return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}); }
 
     Point weight;  ///< of a, b, c, times s
     double v;
