@@ -87,11 +87,12 @@ class Judge {
         const int size = random_.chance(0.9) ? power + random_.between_ints(-4, 8) : random_.between_ints(-100, 100);
         scene_.scale = static_cast<float>(std::ldexp(1.0, std::clamp(-size, -100, 100)));
         constexpr std::array<std::array<std::size_t, 3>, 6> turns = {{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
-        scene_.coordinates.clear();
+        scene_.coordinates = RawArray<Scalar>(9 * turns.size() + 1);
+        Scalar* next = scene_.coordinates.data();
         for (const auto& turn : turns)
             for (const std::size_t corner : turn)
-                for (const double x : pair_.corners[corner]) scene_.coordinates.push_back(static_cast<Scalar>(x));
-        scene_.coordinates.push_back(0);
+                for (const double x : pair_.corners[corner]) *next++ = static_cast<Scalar>(x);
+        *next = 0;
 
         const Point from = pair_.path.from;
         const Point to = pair_.path.to;
