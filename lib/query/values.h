@@ -39,8 +39,9 @@ class CertifiedFace {
 
     /// Fraction and weights of a hit, within `k_tolerance` of themselves and of 1 before they are rounded to double.
     [[nodiscard]] Measures measures(const Path& path, const Decision& decision) {
-        // On an edge or at the start some values are exactly 0, which only exact arithmetic gives.
-        if (decision.feature == Feature::face && !decision.at_start) {
+        // On an edge some weights are exactly 0, which only exact arithmetic gives. (At the start the fraction is; but then no computed
+        // one is within a part of itself.)
+        if (decision.feature == Feature::face) {
             const Meeting meeting(plane_, path);
             if (meeting.within(k_tolerance)) return quotients(meeting);
             if (k_coarse) {

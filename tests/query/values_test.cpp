@@ -53,6 +53,14 @@ void check_values() {
         exact_sides += counters.exact_sides > 0 ? 1 : 0;
         fraction = std::max(fraction, steps(hit->exact_fraction, exact.fraction(), CGAL::to_double(exact.fraction())));
         ASSERT_LE(Q(double(hit->fraction)), exact.fraction()) << "a lower bound: " << describe(pair);
+        // Exactly 0 is what these are, not nearly.
+        ASSERT_TRUE(!hit->at_start || hit->exact_fraction == 0) << describe(pair);
+        for (int k = 0; k < 3; ++k) {
+            const bool off = hit->feature == Feature::edge     ? k == (hit->feature_index + 2) % 3
+                             : hit->feature == Feature::vertex ? k != hit->feature_index
+                                                               : false;
+            ASSERT_TRUE(!off || hit->barycentric[k] == 0) << describe(pair);
+        }
         Vec3<double> direction;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto at = static_cast<int>(k);
