@@ -52,8 +52,11 @@ struct Reach {
     Int4 last_step;
 };
 
-// The brick of cells around a place, in bricks; null where it is empty.
-[[gnu::always_inline]] inline const Node* find_brick(const PackedLevel& level, int x, int y, int z, unsigned (*count_bits)(std::uint64_t)) {
+}  // namespace
+
+/// The brick of cells at a place given in bricks; null where there is none.
+template <class Wide>
+[[gnu::always_inline]] inline const Node* find_brick(const PackedLevel& level, int x, int y, int z) {
     const int shift = level.root_shift - 2;
     const Node* node = level.nodes + (static_cast<std::size_t>(x >> shift) * level.strides[0] +
                                       static_cast<std::size_t>(y >> shift) * level.strides[1] +
@@ -61,12 +64,10 @@ struct Reach {
     for (int down = shift - 2; down >= 0; down -= 2) {
         const std::uint64_t bit = std::uint64_t{1} << ((x >> down & 3) | (y >> down & 3) << 2 | (z >> down & 3) << 4);
         if ((node->parts & bit) == 0) return nullptr;
-        node = level.nodes + (node->first + count_bits(node->parts & (bit - 1)));
+        node = level.nodes + (node->first + Wide::count_bits(node->parts & (bit - 1)));
     }
-    return node;
+    return node->parts != 0 ? node : nullptr;
 }
-
-}  // namespace
 
 /// The stops in one brick, behind those that are there already; returns how many there are then, -1 if that is more than `k_most_block`.
 template <class Wide>
@@ -142,8 +143,8 @@ template <class Wide>
     const int y = first_brick[1];
     const int z = first_brick[2];
     if (Wide::negative(zero - more) == 0) {  // nearly always
-        const Node* brick = find_brick(level, x, y, z, Wide::count_bits);
-        if (brick == nullptr || brick->parts == 0) return 0;
+        const Node* brick = find_brick<Wide>(level, x, y, z);
+        if (brick == nullptr) return 0;
         return stops_in_brick<Wide>(*brick, first_brick << 2, reach, stops, 0);
     }
     if (Wide::negative(one - more) != 0) return -1;
@@ -151,8 +152,8 @@ template <class Wide>
     for (int i = 0; i < 8; ++i) {
         const Int4 brick_at = first_brick + Int4{i & 1, i >> 1 & 1, i >> 2, 0};
         if (Wide::negative(first_brick + more - brick_at) != 0) continue;
-        const Node* brick = find_brick(level, brick_at[0], brick_at[1], brick_at[2], Wide::count_bits);
-        if (brick == nullptr || brick->parts == 0) continue;
+        const Node* brick = find_brick<Wide>(level, brick_at[0], brick_at[1], brick_at[2]);
+        if (brick == nullptr) continue;
         found = stops_in_brick<Wide>(*brick, brick_at << 2, reach, stops, found);
         if (found < 0) return -1;
     }
