@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <grid/raster.h>
+#include <raw_array.h>
 
 namespace pierce::detail {
 
@@ -85,8 +86,8 @@ class Level {
     PackedLevel packed_;  ///< points into the rest
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> starts_;
-    std::unique_ptr<PackedBox[]> boxes_;
-    std::unique_ptr<std::uint32_t[]> ids_;
+    RawArray<PackedBox> boxes_;
+    RawArray<std::uint32_t> ids_;
     std::size_t references_ = 0;
     std::uint32_t first_id_ = 0;
 };

@@ -271,9 +271,9 @@ Level LevelBuilder::build() {
     level.references_ = references_;
     level.first_id_ = first_;
     level.nodes_.resize(strides_[slow_] * static_cast<std::size_t>(roots_[slow_]));
-    level.boxes_ = std::make_unique_for_overwrite<PackedBox[]>(references_ + Level::k_beyond);
-    std::fill_n(level.boxes_.get() + references_, Level::k_beyond, 0);
-    level.ids_ = std::make_unique_for_overwrite<std::uint32_t[]>(references_);
+    level.boxes_ = RawArray<PackedBox>(references_ + Level::k_beyond);
+    std::fill_n(level.boxes_.data() + references_, Level::k_beyond, 0);
+    level.ids_ = RawArray<std::uint32_t>(references_);
     if (root_shift_ == 2) {
         sort_by_slab();
         build_dense(level);
@@ -291,8 +291,8 @@ Level LevelBuilder::build() {
     }
     level.packed_.nodes = level.nodes_.data();
     level.packed_.starts = level.starts_.data();
-    level.packed_.boxes = level.boxes_.get();
-    level.packed_.ids = level.ids_.get();
+    level.packed_.boxes = level.boxes_.data();
+    level.packed_.ids = level.ids_.data();
     level.packed_.root_shift = root_shift_;
     return level;
 }

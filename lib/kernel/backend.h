@@ -2,6 +2,10 @@
 //
 // What is refused depends on the instruction set in the last bits of the bounds; what is hit does not: all that is left goes to
 // the filter (filter.h) and where that is in doubt to exact arithmetic.
+//
+// A file of some hundred lines for each instruction set, not Highway: the algorithms are written once, over a dozen operations that each file
+// gives them, and compilers' own vectors do the rest. Highway would be a dependency at link time, includes each file once more for each
+// target. It was not tried.
 #pragma once
 
 #include <cstdint>

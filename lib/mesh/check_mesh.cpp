@@ -33,7 +33,7 @@ bool is_sound(const MeshView<Scalar>& mesh, const Executor& executor) {
     });
     each(mesh.triangles.size(), [&](std::size_t i) {
         const auto& t = mesh.triangles[i];
-        return (t[0] < vertices) & (t[1] < vertices) & (t[2] < vertices);
+        return std::max(std::max(t[0], t[1]), t[2]) < vertices;
     });
     return sound;
 }
