@@ -40,7 +40,8 @@ using Points = Eigen::Ref<const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>, 0, Eig
 ///
 /// Queries never throw, never assert and end for every input. The answer depends on the mesh and the segment only, to the
 /// last bit: not on the grid, the threads, the machine or the order of queries. They are slow, milliseconds and more, for segments that
-/// reach further than some 10^9 times the size of the mesh: an end at 1e30 is no way to say "far away".
+/// reach further than some 10^9 times the size of the mesh: an end at 1e30 is no way to say "far away". So they are in meshes of
+/// double coordinates that are all below 2^-1000, whose triangles share one cell.
 template <class Scalar>
 class CollisionMesh {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");

@@ -38,6 +38,7 @@ class Executor {
               (*static_cast<std::remove_reference_t<Callable>*>(c))(parts, task);
           }) {}
 
+    explicit operator bool() const { return call_ != nullptr; }
     void operator()(std::size_t parts, Task task) const {
         if (call_ != nullptr && parts > 1) return call_(callable_, parts, task);
         for (std::size_t i = 0; i < parts; ++i) task(i);

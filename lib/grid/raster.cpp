@@ -12,6 +12,9 @@ Raster::Raster(const Box& box, double size) {
         // Finite and normal, whatever the box: the least cell is 2^-1000, the largest holds everything.
         double half_cell = std::clamp(0.5 * size, half_extent / k_most_cells, 0x1p1022);
         half_cell = std::max({half_cell, half_extent / (k_most_cells - 1), 0x1p-1000});
+        // Nor finer than the coordinates themselves: 2^-50 is four units of the largest one's last place. So what the margin is rounded to,
+        // one unit, is less than a cell, and the loops below end after a few turns.
+        half_cell = std::max(half_cell, 0x1p-50 * std::max(std::abs(half_low_[k]), std::abs(0.5 * box.high[k])));
         cells_[k] = std::min(static_cast<int>(half_extent / half_cell) + 1, k_most_cells);
         scale_[k] = k_steps / half_cell;
         // As computed, the box must lie a margin inside of the cells, whatever is absorbed.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include <environment.h>
 #include <exact/decide.h>
 #include <kernel/plane.h>
 #include <mesh/check_mesh.h>
@@ -82,23 +83,31 @@ std::size_t Scene<Scalar>::bytes() const {
 
 template <class Scalar>
 Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options) {
-    check_mesh(mesh, options.executor);
+    // The caller's threads have floating-point environments of their own.
+    const auto in_standard_arithmetic = [&](std::size_t parts, Task task) {
+        options.executor(parts, [&](std::size_t part) {
+            const StandardArithmetic standard;
+            task(part);
+        });
+    };
+    const Executor executor = options.executor ? Executor(in_standard_arithmetic) : Executor();
+    check_mesh(mesh, executor);
     if (!(options.cell_size >= 0)) throw MeshError("BuildOptions::cell_size must be 0 or more");
     Scene<Scalar> scene;
     scene.backend = &choose_backend(options.backend);
     scene.faces.assign(mesh.faces.begin(), mesh.faces.end());
 
-    const RawArray<PlainBox<Scalar>> boxes = make_boxes(mesh, options.executor);
+    const RawArray<PlainBox<Scalar>> boxes = make_boxes(mesh, executor);
     const std::size_t most = options.max_grid_bytes != 0 ? options.max_grid_bytes
                                                          : std::max<std::size_t>(96 * boxes.size(), std::size_t{1} << 16);
-    scene.grid = Grid(std::span(boxes.data(), boxes.size()), {options.cell_size, most}, options.executor);
+    scene.grid = Grid(std::span(boxes.data(), boxes.size()), {options.cell_size, most}, executor);
     scene.triangle_numbers = scene.grid.take_order();
     const std::size_t listed = scene.triangle_numbers.size();
     scene.triangle_numbers.reserve(boxes.size());
     for (std::uint32_t i = 0; i < boxes.size(); ++i)
         if (!boxes[i].listed()) scene.triangle_numbers.push_back(i);
     scene.degenerate = scene.triangle_numbers.size() - listed;
-    copy_in_order(mesh, scene, options.executor);
+    copy_in_order(mesh, scene, executor);
     scene.scale = scale_for(scene.grid);
     scene.face_count = count_faces(scene);
     return scene;

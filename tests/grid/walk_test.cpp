@@ -271,6 +271,18 @@ TEST(Grid, keeps_to_its_memory) {
     EXPECT_LE(grid_of(boxes, 1e-9, std::size_t{1} << 22).bytes(), (std::size_t{1} << 22) + 1024);
 }
 
+// A flat box a unit from the origin with cells of 1e-25, or a unit box with cells of 1e-300: a cell was less than the last place of its
+// coordinates, so that the margin around the box was rounded to more cells than an int can count, one by one.
+TEST(Grid, ends_for_cells_far_below_the_coordinates_last_place) {
+    for (const double size : {1e-15, 1e-20, 1e-25, 1e-100, 1e-300})
+        for (const double at : {1.0, -1e10}) {
+            const Grid flat = grid_of({{{0, 0, at}, {size, size, at}}, {{0, 0, at}, {0, size, at}}}, 0);
+            EXPECT_EQ(flat.bounds().high[2], at);
+            const Grid wide = grid_of({{{0, 0, at}, {1, 1, at}}, {{0, 0, at}, {0, 1, at}}}, size);
+            EXPECT_EQ(wide.bounds().high[2], at);
+        }
+}
+
 TEST(Grid, gives_each_size_its_own_cells) {
     // A teapot in a stadium: ten thousand small boxes in a corner, twelve large ones around.
     Boxes boxes;

@@ -66,6 +66,52 @@ TEST(Environment, changes_no_bit) {
     expect_same_everywhere<double>("huge doubles", sphere, 1e300);
 }
 
+// Threads that a build is given may have settings of their own, as a game's pool has that was made to flush: a mesh of denormal numbers
+// had no area then, and a raster that rounds otherwise than the query's lost triangles.
+template <class Scalar>
+void expect_same_builds(const char* what, double scale) {
+    SCOPED_TRACE(what);
+    const TriangleSoup<double> unit = bumpy_sphere(70);
+    ASSERT_GT(unit.triangles.size(), 32'768U);  // several parts
+    const TriangleSoup<Scalar> soup = moved<Scalar>(unit, scale, {0, 0, 0});
+    const Extent<double> extent(unit.view());
+    Random random(4);
+    std::vector<Segment<Scalar>> segments;
+    for (int i = 0; i < 300; ++i) {
+        const Segment<double> s = mixed_segment(unit.view(), extent, random);
+        segments.push_back({(scale * s.from).cast<Scalar>(), (scale * s.to).cast<Scalar>()});
+    }
+    const auto hits = [&](const CollisionMesh<Scalar>& mesh) {
+        std::vector<std::uint64_t> out = {mesh.statistics().degenerate, mesh.statistics().grid_references};
+        for (const Segment<Scalar>& s : segments) {
+            const auto hit = mesh.first_hit(s, {.sides = Sides::both});
+            out.push_back(hit ? hit->triangle : ~0U);
+            if (hit) out.push_back(bits(hit->exact_fraction));
+        }
+        return out;
+    };
+    const auto standard = hits(CollisionMesh<Scalar>(soup.view()));
+    EXPECT_GT(standard.size(), segments.size() + 100);  // there are hits
+    for (const auto& [rounding, flush] : {std::pair(FE_TONEAREST, true), std::pair(FE_UPWARD, false)}) {
+        const auto in_setting = [&](std::size_t parts, Task task) {
+            for (std::size_t part = 0; part < parts; ++part) {
+                const Setting setting(rounding, flush);
+                task(part);
+                setting.expect_given_back();
+            }
+        };
+        EXPECT_EQ(hits(CollisionMesh<Scalar>(soup.view(), {.executor = in_setting})), standard)
+            << "rounding " << rounding << " flush " << flush;
+    }
+}
+
+TEST(Environment, of_the_threads_of_a_build_changes_no_bit) {
+    expect_same_builds<float>("float", 1);
+    expect_same_builds<float>("denormal floats", 1e-40);
+    expect_same_builds<double>("double", 1);
+    expect_same_builds<double>("denormal doubles", 1e-312);
+}
+
 #if defined(__GLIBC__)
 
 // A program that is stopped (SIGFPE) by any floating-point exception, for as long as it lives.
