@@ -1,4 +1,5 @@
 // Prints one fingerprint of many answers, so that builds by different compilers and flags can be compared (tests/same_bits).
+#include <cmath>
 #include <cstdio>
 
 #include <pierce/collision_mesh.h>
@@ -9,24 +10,44 @@
 namespace pierce::test {
 namespace {
 
+// Triangles of all sizes and shapes. One random number a statement: compilers differ in the order of operands.
+TriangleSoup<double> splinters(std::uint32_t count, std::uint64_t seed) {
+    Random random(seed);
+    TriangleSoup<double> soup;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Vec3<double> a = random.in_cube();
+        const double size = std::ldexp(1.0, -static_cast<int>(random.below(12)));
+        const double thin = random.chance(0.3) ? 1e-6 : 1;
+        const Vec3<double> along = size * random.direction();
+        const Vec3<double> across = thin * size * random.direction();
+        const double part = random.unit();
+        soup.positions.push_back(a);
+        soup.positions.push_back(a + along);
+        soup.positions.push_back(a + part * along + across);
+        soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return soup;
+}
+
 template <class Scalar>
-void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, double offset) {
+void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, double offset, int count = 20'000) {
     // Made in double and rounded once; sines and the like are kept out of it, as they differ between C libraries.
     const TriangleSoup<Scalar> soup = moved<Scalar>(unit, scale, {offset, -offset, offset});
     const CollisionMesh<Scalar> mesh(soup.view());
     Random random(17);
     std::array<Hit<Scalar>, 4> hits;
-    for (int i = 0; i < 20'000; ++i) {
+    std::vector<Segment<Scalar>> segments;
+    for (int i = 0; i < count; ++i) {
         const IndexTriple& t = soup.triangles[random.below(soup.triangles.size())];
         const Vec3<double> w = random.chance(0.3) ? Vec3<double>(0.5, 0.5, 0) : random.weights();
         Vec3<double> target = Vec3<double>::Zero();
         for (int k = 0; k < 3; ++k)
             target += w[k] * soup.positions[t[static_cast<std::size_t>(k)]].template cast<double>();
-        // One random number a statement: compilers differ in the order of operands.
         const double length = scale * (random.chance(0.5) ? 0.01 : 3);
         const Vec3<double> d = length * random.in_cube();
         const double beyond = random.unit();
         const Segment<Scalar> segment{(target - d).template cast<Scalar>(), (target + beyond * d).template cast<Scalar>()};
+        segments.push_back(segment);
         const std::size_t total = mesh.all_hits(segment, hits, {.sides = Sides::both});
         hash.add(total);
         for (std::size_t k = 0; k < std::min(total, hits.size()); ++k) hash.add(hits[k]);
@@ -34,6 +55,13 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
         hash.add(static_cast<std::uint64_t>(mesh.crossings(segment)));
         hash.add(mesh.contains(segment.from) ? 1 : 0);
     }
+    std::vector<std::optional<Hit<Scalar>>> first(segments.size());
+    std::vector<std::uint8_t> any(segments.size());
+    hash.add(mesh.first_hits(segments, first, {{.sides = Sides::back}, {}}));
+    hash.add(mesh.any_hits(segments, any));
+    for (const auto& hit : first)
+        if (hit) hash.add(*hit);
+    for (const std::uint8_t hit : any) hash.add(hit);
 }
 
 }  // namespace
@@ -47,6 +75,13 @@ int main() {
         add_answers<double>(hash, polycube(4, 0.5, 2, 2), 0.1, offset);
         add_answers<float>(hash, terrain(40, 0.1, 3), 100, offset);
         add_answers<double>(hash, terrain(40, 0.1, 3), 1e-3, offset);
+    }
+    // Both ends of the number range, where exact arithmetic decides nearly everything, and triangles of all shapes.
+    for (const double scale : {1e-40, 1e-36, 1e36}) add_answers<float>(hash, splinters(300, 5), scale, 0, 2000);
+    for (const double scale : {1e-310, 1e-290, 1e290}) add_answers<double>(hash, splinters(300, 6), scale, 0, 2000);
+    for (const double offset : {0.0, 1e4}) {
+        add_answers<float>(hash, splinters(2000, 7), 1, offset);
+        add_answers<double>(hash, splinters(2000, 8), 1, offset);
     }
     std::printf("%016llx\n", static_cast<unsigned long long>(hash.value()));
 }
