@@ -311,12 +311,14 @@ TEST(TriangleFan, ABrokenChainIsRefusedByName) {
 
 /// Every triangle once, each with its own corners in its own orientation, neighbours in a fan joined.
 template <class Scalar>
-std::size_t expect_cover(const TriangleSoup<Scalar>& soup) {
-    const std::vector<Fan> fans = fans_of(soup.view());
+std::size_t expect_cover(const TriangleSoup<Scalar>& soup, std::size_t most = k_most_in_fan) {
+    const std::vector<Fan> fans = fans_of(soup.view(), most);
     std::vector<int> covered(soup.triangles.size());
     std::size_t numbers = 0;
     for (const Fan& fan : fans) {
         EXPECT_EQ(fan.ring.size(), fan.triangles.size() + 1);
+        EXPECT_GE(fan.triangles.size(), 1U);
+        EXPECT_LE(fan.triangles.size(), most);
         for (std::size_t k = 0; k < fan.triangles.size(); ++k) {
             ++covered[fan.triangles[k]];
             IndexTriple t = soup.triangles[fan.triangles[k]];
@@ -351,6 +353,21 @@ TEST(Fans, CoverEveryTriangleOnce) {
     EXPECT_TRUE(fans_of(TriangleSoup<double>{}.view()).empty());
     odd.triangles.push_back({0, 1, 99});
     EXPECT_THROW((void)fans_of(odd.view()), MeshError);
+}
+
+// A double cone over a polygon with 50 corners: two vertices of valence 50. Cut into as few parts as will do, equally long but for one.
+TEST(Fans, HaveAtMostTheMembersThatAreAskedFor) {
+    TriangleSoup<double> cone;
+    cone.positions = {{0, 0, 1}, {0, 0, -1}};
+    for (std::uint32_t k = 0; k < 50; ++k) {
+        cone.positions.emplace_back(std::cos(0.02 * 6.2831853 * k), std::sin(0.02 * 6.2831853 * k), 0);
+        cone.triangles.push_back({0, 2 + k, 2 + (k + 1) % 50});
+        cone.triangles.push_back({1, 2 + (k + 1) % 50, 2 + k});
+    }
+    EXPECT_EQ(k_most_in_fan, 16U);
+    for (const auto& [most, fans] : {std::pair{50U, 2U}, {49U, 4U}, {16U, 8U}, {7U, 16U}, {1U, 100U}}) EXPECT_EQ(expect_cover(cone, most), fans);
+    EXPECT_EQ(fans_of(cone.view(), 0).size(), 100U);
+    for (const Fan& fan : fans_of(cone.view())) EXPECT_GE(fan.triangles.size(), 12U);
 }
 
 // All fans of a closed mesh, one after the other, find what its triangles tested exactly find.

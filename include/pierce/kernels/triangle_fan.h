@@ -40,7 +40,7 @@ struct FanAnswer : Answer<Scalar> {
 
 /// Of either side, by `sides`. The answer is the first hit along the segment, of equal fractions as computed that of the first triangle. The
 /// errors of u, v, w are handed on from each triangle to the next, and grow where these are thin or nearly opposite to one another: for fans
-/// of good triangles with up to ten members they stay within a few times those of `BaldwinWeber12`; then they double every four members or so.
+/// of good triangles with up to ten members they stay within a few times those of `BaldwinWeber12`, with 64 it is some hundred times. `fans_of` has a limit for that.
 struct TriangleFan {
     Sides sides = Sides::front;
 
