@@ -28,9 +28,10 @@ struct Fan {
 /// nothing is cut, and what is cut has 6 (1 + 1/8) numbers a triangle at most.
 inline constexpr std::size_t k_most_in_fan = 16;
 
-/// Covers each triangle of the mesh exactly once, by fans of at most `most` (0 is taken as 1). Greedy: the vertex with the most uncovered triangles is next; these are chained, from
-/// borders first, and each chain is a fan, so that a vertex where several sheets meet, or a non-manifold edge, gives several. A triangle
-/// without a basis (`TriangleFan::has_basis`), which includes those that name a vertex twice, is a fan of its own.
+/// Covers each triangle of the mesh exactly once, by fans of at most `most` (0 is taken as 1). Greedy: the vertex with the most uncovered
+/// triangles is next; these are chained, from borders first, and each chain is a fan, so that a vertex where several sheets meet, or a
+/// non-manifold edge, gives several. A triangle without a basis at one of its corners (`TriangleFan::has_basis`), which includes those that name
+/// a vertex twice, is a fan of its own.
 ///
 /// O(F log F) time and O(F) memory for F triangles, if valences are bounded. Indices must be in range: throws `MeshError` naming the triangle.
 template <class Scalar>
@@ -82,6 +83,15 @@ inline void chain(std::uint32_t apex, const std::vector<Wedge>& wedges, std::vec
     while (!by_first.empty()) grow_from(by_first.begin()->first);
 }
 
+/// Whether any corner will do as the apex: rounding, and a limit on lengths, may tell them apart.
+template <class Scalar>
+[[nodiscard]] bool has_bases(const MeshView<Scalar>& mesh, const IndexTriple& t) {
+    const auto at = [&](std::size_t k) -> const Vec3<Scalar>& { return mesh.positions[t[k % 3]]; };
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!kernels::TriangleFan::has_basis<Scalar>(at(k), at(k + 1), at(k + 2))) return false;
+    return true;
+}
+
 /// Appends the fan in as few parts as have at most `most` triangles each, all of about the same length: so that none has more errors than it must.
 inline void append_in_parts(const Fan& fan, std::size_t most, std::vector<Fan>& fans) {
     const std::size_t count = fan.triangles.size();
@@ -109,7 +119,7 @@ std::vector<Fan> fans_of(const MeshView<Scalar>& mesh, std::size_t most) {
         for (const std::uint32_t v : t)
             if (v >= mesh.positions.size())
                 throw MeshError("triangle " + std::to_string(i) + ": there is no vertex " + std::to_string(v));
-        if (kernels::TriangleFan::has_basis<Scalar>(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]])) {
+        if (fans_detail::has_bases(mesh, t)) {
             for (const std::uint32_t v : t) around[v].push_back(i);
         } else {
             fans.push_back({t[0], {t[1], t[2]}, {i}});

@@ -351,6 +351,12 @@ TEST(Fans, CoverEveryTriangleOnce) {
     odd.triangles.push_back({1, 0, 5});  // turned against its neighbour
     expect_cover(odd);
     EXPECT_TRUE(fans_of(TriangleSoup<double>{}.view()).empty());
+    // Two triangles that share a long edge: each has a basis at the corner that it names first, but not at the ends of the edge.
+    const double s = 1.5 * std::ldexp(1.0, TriangleFan::k_range<double>);
+    TriangleSoup<double> long_edge;
+    long_edge.positions = {{0, 0, 0}, {s, 0, 0}, {-s, s / 2, 0}, {0, s, 0}};
+    long_edge.triangles = {{0, 1, 2}, {3, 2, 1}};
+    EXPECT_EQ(expect_cover(long_edge), 2U);
     odd.triangles.push_back({0, 1, 99});
     EXPECT_THROW((void)fans_of(odd.view()), MeshError);
 }
