@@ -8,7 +8,7 @@ namespace pierce {
 
 /// The triangles around a vertex, counter-clockwise seen from their front: one closed fan inside the mesh, an open one on its border, and
 /// several where sheets meet in the vertex (OpenMesh's half-edges list these one after the other); none for a vertex without faces.
-/// The numbers are those of vertex and face handles. O(valence).
+/// The numbers are those of vertex and face handles. However many there are: see `k_most_in_fan` for what that costs. O(valence).
 template <class Mesh>
 [[nodiscard]] std::vector<Fan> one_ring(const Mesh& mesh, OpenMesh::VertexHandle vertex) {
     openmesh_detail::require_triangle_mesh<Mesh>();
@@ -44,9 +44,9 @@ template <class Mesh>
 
 /// A decomposition of the faces that are not deleted: `Fan::triangles` holds the numbers of face handles. As `fans_of` for a `MeshView`.
 template <class Mesh>
-[[nodiscard]] std::vector<Fan> fans_of_openmesh(const Mesh& mesh) {
+[[nodiscard]] std::vector<Fan> fans_of_openmesh(const Mesh& mesh, std::size_t most = k_most_in_fan) {
     const auto soup = from_openmesh(mesh);
-    std::vector<Fan> fans = fans_of(soup.view());
+    std::vector<Fan> fans = fans_of(soup.view(), most);
     if (!soup.faces.empty())
         for (Fan& fan : fans)
             for (std::uint32_t& triangle : fan.triangles) triangle = soup.faces[triangle];

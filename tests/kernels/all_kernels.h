@@ -26,6 +26,11 @@ void for_each_kernel(Function&& f) {
     f("watertight", kernels::watertight);
 }
 
+template <class... Kernels>
+constexpr bool k_all_are_kernels = (... && (kernels::Kernel<Kernels, float> && kernels::Kernel<Kernels, double>));
+static_assert(k_all_are_kernels<kernels::Bloom, kernels::BaldwinWeber12, kernels::BaldwinWeber9, kernels::MollerTrumbore, kernels::Cramer,
+                                kernels::McGuire, kernels::TriangleFan, kernels::Watertight, kernels::Exact>);
+
 template <class Scalar>
 Vec3<Scalar> vec(const detail::Point& p) {
     return Vec3<double>(p[0], p[1], p[2]).template cast<Scalar>();
