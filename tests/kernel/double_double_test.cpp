@@ -228,7 +228,7 @@ void judge(const Pair& pair, double tolerance, Tally& tally) {
     const typename A::Divisor over_s(meeting.s);
     const auto near = [&](double x, const mpz_class& y, const mpz_class& scale) {
         const mpz_class error = abs((whole(x, k_unit) * exact.s) - (y << k_unit));
-        return error << 80 <= (abs(scale) << k_unit) * mpz_class((tolerance + v) * (1 + 2 * tolerance) * 0x1p80);
+        return (error << 80) <= (abs(scale) << k_unit) * mpz_class((tolerance + v) * (1 + 2 * tolerance) * 0x1p80);
     };
     EXPECT_TRUE(near(over_s(meeting.v), exact.v, exact.v)) << "fraction: " << describe(pair);
     EXPECT_TRUE(near(over_s(meeting.w.x), exact.w[0], exact.s)) << "weight of a: " << describe(pair);

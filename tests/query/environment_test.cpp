@@ -92,7 +92,8 @@ void expect_same_builds(const char* what, double scale) {
     };
     const auto standard = hits(CollisionMesh<Scalar>(soup.view()));
     EXPECT_GT(standard.size(), segments.size() + 100);  // there are hits
-    for (const auto& [rounding, flush] : {std::pair(FE_TONEAREST, true), std::pair(FE_UPWARD, false)}) {
+    for (const bool flush : {true, false}) {
+        const int rounding = flush ? FE_TONEAREST : FE_UPWARD;
         const auto in_setting = [&](std::size_t parts, Task task) {
             for (std::size_t part = 0; part < parts; ++part) {
                 const Setting setting(rounding, flush);
