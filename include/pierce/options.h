@@ -20,7 +20,7 @@ struct BuildOptions {
     /// An upper bound for the memory of the grids, kept by larger cells. Zero stands for 96 bytes a triangle, and for 64 KiB where that is
     /// more. One cell for each size of triangles, with 12 bytes a triangle, is always made.
     std::size_t max_grid_bytes = 0;
-    /// Which wide kernels to use: `sse2`, `avx2`, `neon`, `plain`. If it is empty, the environment variable PIERCE_BACKEND says, and
+    /// Which wide kernels to use: `sse2`, `avx2`, `avx512`, `neon`, `plain`. If it is empty, the environment variable PIERCE_BACKEND says, and
     /// without that the machine's fastest. Building throws std::invalid_argument where the machine has none of the name.
     std::string_view backend = {};
     /// Builds in parallel, if given.

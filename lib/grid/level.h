@@ -73,10 +73,10 @@ class Level {
     [[nodiscard]] std::size_t reference_count() const { return references_; }
     [[nodiscard]] std::size_t bytes() const {
         return nodes_.capacity() * sizeof(Node) + starts_.capacity() * sizeof(std::uint32_t) +
-               references_ * (sizeof(PackedBox) + sizeof(std::uint32_t)) + k_beyond * sizeof(PackedBox);
+               (references_ + k_beyond) * (sizeof(PackedBox) + sizeof(std::uint32_t));
     }
 
-    /// The kernels read on beyond the last box.
+    /// The kernels read on beyond the last box and id.
     static constexpr std::size_t k_beyond = 8;
 
   private:

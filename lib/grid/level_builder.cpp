@@ -273,7 +273,8 @@ Level LevelBuilder::build() {
     level.nodes_.resize(strides_[slow_] * static_cast<std::size_t>(roots_[slow_]));
     level.boxes_ = RawArray<PackedBox>(references_ + Level::k_beyond);
     std::fill_n(level.boxes_.data() + references_, Level::k_beyond, 0);
-    level.ids_ = RawArray<std::uint32_t>(references_);
+    level.ids_ = RawArray<std::uint32_t>(references_ + Level::k_beyond);
+    std::fill_n(level.ids_.data() + references_, Level::k_beyond, 0);
     if (root_shift_ == 2) {
         sort_by_slab();
         build_dense(level);

@@ -39,8 +39,8 @@ struct Backend {
     /// A walk through a level, see walk.h: `start_walk`, then `walk` until it gives fewer stops than there is room for.
     Walking (*start_walk)(const PackedLevel& level, const double* half_from, const double* half_to, double limit, bool once, Walk& walk);
     unsigned (*walk)(const PackedLevel& level, Walk& walk, double limit, Stop* stops, unsigned room);
-    /// The ids of the boxes that `above` and `seen` leave (packed_box.h), in order; returns how many. Reads up to 7 boxes beyond
-    /// the last. `out` has room for `count` and 8 more.
+    /// The ids of the boxes that `above` and `seen` leave (packed_box.h), in order; returns how many. Reads up to 7 boxes and ids
+    /// beyond the last. `out` has room for `count` and 8 more.
     unsigned (*cull)(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
                      std::uint32_t* out);
     /// The ids of the triangles that the segment may hit, in order; returns how many. `corners` has nine scalars a triangle, and one

@@ -1,8 +1,7 @@
 // Four triangles at once on 64-bit Arm; see lanes.h.
 #include <arm_neon.h>
 
-#include <kernel/backends.h>
-#include <kernel/walk.h>
+#include <kernel/table.h>
 
 namespace pierce::detail {
 
@@ -66,36 +65,15 @@ struct Neon {
         const uint64x2_t free = vceqzq_u64(vreinterpretq_u64_u8(refused));
         return static_cast<unsigned>((vgetq_lane_u64(free, 0) & 1) | (vgetq_lane_u64(free, 1) & 2));
     }
+    static unsigned keep(unsigned lanes, const std::uint32_t* ids, std::uint32_t* out) {
+        out[0] = ids[0];
+        out[lanes & 1] = ids[1];
+        return (lanes & 1) + (lanes >> 1);
+    }
 };
-
-int block_neon(const PackedLevel& level, const double* half_from, const double* half_to, Stop* stops) {
-    return block<Neon>(level, half_from, half_to, stops);
-}
-
-int look_neon(const PackedLevel& level, const double* half_from, const double* half_to, std::uint32_t* out, unsigned room, unsigned* cells) {
-    return look<Neon>(level, half_from, half_to, out, room, cells);
-}
-
-Walking start_walk_neon(const PackedLevel& level, const double* half_from, const double* half_to, double limit, bool once, Walk& walk) {
-    return start_walk<Neon>(level, half_from, half_to, limit, once, walk);
-}
-
-unsigned walk_neon(const PackedLevel& level, Walk& walk, double limit, Stop* stops, unsigned room) {
-    return walk_on<Neon>(level, walk, limit, stops, room);
-}
-
-unsigned cull_neon(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
-                   std::uint32_t* out) {
-    return cull<Neon>(boxes, ids, count, above, seen, out);
-}
-
-template <class Scalar>
-unsigned refine_neon(const Probe<Scalar>& probe, const Scalar* corners, std::uint32_t* ids, unsigned count, std::uint32_t* out) {
-    return refine<Neon>(probe, corners, ids, count, out);
-}
 
 }  // namespace
 
-const Backend k_neon = {"neon", block_neon, look_neon, start_walk_neon, walk_neon, cull_neon, refine_neon<float>, refine_neon<double>};
+constinit const Backend k_neon = Kernels<Neon>::named("neon");
 
 }  // namespace pierce::detail

@@ -1,6 +1,5 @@
 // One triangle at a time, for machines whose instruction set has no file of its own, and to compare the others with; see lanes.h.
-#include <kernel/backends.h>
-#include <kernel/walk.h>
+#include <kernel/table.h>
 
 namespace pierce::detail {
 
@@ -48,36 +47,14 @@ struct Plain {
             if (static_cast<signed char>(*box >> place & 0xff) > static_cast<signed char>(above >> place & 0xff)) return 0;
         return 1;
     }
+    static unsigned keep(unsigned lanes, const std::uint32_t* ids, std::uint32_t* out) {
+        *out = *ids;
+        return lanes;
+    }
 };
-
-int block_plain(const PackedLevel& level, const double* half_from, const double* half_to, Stop* stops) {
-    return block<Plain>(level, half_from, half_to, stops);
-}
-
-int look_plain(const PackedLevel& level, const double* half_from, const double* half_to, std::uint32_t* out, unsigned room, unsigned* cells) {
-    return look<Plain>(level, half_from, half_to, out, room, cells);
-}
-
-Walking start_walk_plain(const PackedLevel& level, const double* half_from, const double* half_to, double limit, bool once, Walk& walk) {
-    return start_walk<Plain>(level, half_from, half_to, limit, once, walk);
-}
-
-unsigned walk_plain(const PackedLevel& level, Walk& walk, double limit, Stop* stops, unsigned room) {
-    return walk_on<Plain>(level, walk, limit, stops, room);
-}
-
-unsigned cull_plain(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
-                    std::uint32_t* out) {
-    return cull<Plain>(boxes, ids, count, above, seen, out);
-}
-
-template <class Scalar>
-unsigned refine_plain(const Probe<Scalar>& probe, const Scalar* corners, std::uint32_t* ids, unsigned count, std::uint32_t* out) {
-    return refine<Plain>(probe, corners, ids, count, out);
-}
 
 }  // namespace
 
-const Backend k_plain = {"plain", block_plain, look_plain, start_walk_plain, walk_plain, cull_plain, refine_plain<float>, refine_plain<double>};
+constinit const Backend k_plain = Kernels<Plain>::named("plain");
 
 }  // namespace pierce::detail

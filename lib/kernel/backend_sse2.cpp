@@ -1,37 +1,14 @@
 // Four triangles at once on what every x86-64 machine has; see lanes.h.
-#include <emmintrin.h>
-
-#include <kernel/backends.h>
-#include <kernel/walk.h>
+#include <kernel/floats4.h>
+#include <kernel/table.h>
 
 namespace pierce::detail {
 
 namespace {
 
-struct Sse2 {
-    static constexpr unsigned width = 4;
+struct Sse2 : Floats4<Sse2> {
     static constexpr unsigned boxes = 2;
-    using Float = __m128;
-
-    static Float all(float x) { return _mm_set1_ps(x); }
-    static Float abs(Float x) { return _mm_andnot_ps(_mm_set1_ps(-0.0F), x); }
-    static Float max(Float x, Float y) { return _mm_max_ps(x, y); }
-    static Float min(Float x, Float y) { return _mm_min_ps(x, y); }
-    static unsigned less(Float x, Float y) { return static_cast<unsigned>(_mm_movemask_ps(_mm_cmplt_ps(x, y))); }
-
-    static Lanes<Sse2> columns(Float r0, Float r1, Float r2, Float r3) {
-        const Float xy01 = _mm_unpacklo_ps(r0, r1);
-        const Float xy23 = _mm_unpacklo_ps(r2, r3);
-        const Float z01 = _mm_unpackhi_ps(r0, r1);
-        const Float z23 = _mm_unpackhi_ps(r2, r3);
-        return {_mm_movelh_ps(xy01, xy23), _mm_movehl_ps(xy23, xy01), _mm_movelh_ps(z01, z23)};
-    }
-    static Lanes<Sse2> relative(const float* const* at, const float* origin, float scale) {
-        const Float o = _mm_loadu_ps(origin);
-        const Float s = _mm_set1_ps(scale);
-        const auto row = [&](unsigned i) { return (_mm_loadu_ps(at[i]) - o) * s; };
-        return columns(row(0), row(1), row(2), row(3));
-    }
+    using Floats4<Sse2>::relative;
     static Lanes<Sse2> relative(const double* const* at, const double* origin, float scale) {
         const __m128d xy = _mm_loadu_pd(origin);
         const __m128d z = _mm_load_sd(origin + 2);
@@ -61,36 +38,15 @@ struct Sse2 {
         const unsigned both = halves & (halves >> 1);
         return (both & 1) | ((both >> 1) & 2);
     }
+    static unsigned keep(unsigned lanes, const std::uint32_t* ids, std::uint32_t* out) {
+        out[0] = ids[0];
+        out[lanes & 1] = ids[1];
+        return (lanes & 1) + (lanes >> 1);
+    }
 };
-
-int block_sse2(const PackedLevel& level, const double* half_from, const double* half_to, Stop* stops) {
-    return block<Sse2>(level, half_from, half_to, stops);
-}
-
-int look_sse2(const PackedLevel& level, const double* half_from, const double* half_to, std::uint32_t* out, unsigned room, unsigned* cells) {
-    return look<Sse2>(level, half_from, half_to, out, room, cells);
-}
-
-Walking start_walk_sse2(const PackedLevel& level, const double* half_from, const double* half_to, double limit, bool once, Walk& walk) {
-    return start_walk<Sse2>(level, half_from, half_to, limit, once, walk);
-}
-
-unsigned walk_sse2(const PackedLevel& level, Walk& walk, double limit, Stop* stops, unsigned room) {
-    return walk_on<Sse2>(level, walk, limit, stops, room);
-}
-
-unsigned cull_sse2(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
-                   std::uint32_t* out) {
-    return cull<Sse2>(boxes, ids, count, above, seen, out);
-}
-
-template <class Scalar>
-unsigned refine_sse2(const Probe<Scalar>& probe, const Scalar* corners, std::uint32_t* ids, unsigned count, std::uint32_t* out) {
-    return refine<Sse2>(probe, corners, ids, count, out);
-}
 
 }  // namespace
 
-const Backend k_sse2 = {"sse2", block_sse2, look_sse2, start_walk_sse2, walk_sse2, cull_sse2, refine_sse2<float>, refine_sse2<double>};
+constinit const Backend k_sse2 = Kernels<Sse2>::named("sse2");
 
 }  // namespace pierce::detail

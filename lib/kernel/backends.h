@@ -11,6 +11,7 @@ namespace pierce::detail {
 #if defined(__x86_64__)
 extern const Backend k_sse2;
 extern const Backend k_avx2;
+extern const Backend k_avx512;
 #elif defined(__aarch64__)
 extern const Backend k_neon;
 #endif

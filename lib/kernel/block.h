@@ -96,7 +96,9 @@ template <class Wide>
         // one: it leaves them whenever this one would, as the query's box then reaches to its end.
         const std::uint64_t seen = Wide::negative(first - cell);
         const std::uint64_t before_it = brick.parts & ((std::uint64_t{1} << place) - 1);
-        stops[found++] = {brick.first + Wide::count_bits(before_it), {Wide::pack(upper, lower), seen << 24}, 0};
+        Stop& stop = stops[found++];
+        stop.number = brick.first + Wide::count_bits(before_it);
+        stop.cull = {Wide::pack(upper, lower), seen << 24};
     }
     return found;
 }
@@ -169,12 +171,20 @@ template <class Wide>
     const int found = block<Wide>(level, half_from, half_to, stops);
     *cells = 0;
     if (found <= 0) return found;
+    // First what all of them read: the branches of the culling would let the memory wait.
+    std::uint32_t begin[k_most_block];
+    std::uint32_t count[k_most_block];
+    for (int i = 0; i < found; ++i) {
+        begin[i] = level.starts[stops[i].number];
+        count[i] = level.starts[stops[i].number + 1] - begin[i];
+        const auto* boxes = reinterpret_cast<const char*>(level.boxes + begin[i]);
+        __builtin_prefetch(level.ids + begin[i]);
+        for (std::uint32_t at = 0; at < 3; ++at) __builtin_prefetch(boxes + 64 * at);
+    }
     unsigned left = 0;
     for (int i = 0; i < found; ++i) {
-        const std::uint32_t begin = level.starts[stops[i].number];
-        const std::uint32_t count = level.starts[stops[i].number + 1] - begin;
-        if (count > room - left) return -1;
-        left += cull<Wide>(level.boxes + begin, level.ids + begin, count, stops[i].cull.above, stops[i].cull.seen, out + left);
+        if (count[i] > room - left) return -1;
+        left += cull<Wide>(level.boxes + begin[i], level.ids + begin[i], count[i], stops[i].cull.above, stops[i].cull.seen, out + left);
     }
     *cells = static_cast<unsigned>(found);
     return static_cast<int>(left);

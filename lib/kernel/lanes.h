@@ -7,8 +7,8 @@
 //   wc = d . (a x b),  wa = d . (b x c),  wb = d . (c x a)     volumes of the line and each edge; all <= 0 for a hit of the front
 //   s  = wa + wb + wc = d . n                                  n = (b-a) x (c-a)
 //   v  = a . (b x c) = n . a                                   minus the origin's side; v - s is minus that of origin + d
-// (Bailey's four determinants, `pierce::kernels::cramer`. Bloom's planes ask the same; but wide, tests/bench/table1 has these at 91 % of Moller
-// and Trumbore's time and Bloom's at 105 %, and they need nothing stored but the corners: README.md, "The narrow phase".)
+// (Bailey's four determinants, `pierce::kernels::cramer`. Bloom's planes ask the same; but wide, tests/bench/table1 has all of these near to
+// the time that reading the data takes, and determinants need nothing stored but the corners: README.md, "The narrow phase".)
 //
 // The bounds. Let u = 2^-24, M the largest |component| of the computed a, b, c and D that of d. Each difference x - origin and each d is
 // rounded once to within u of itself (twice for double, the first time within 2^-53; scaling is exact). Then, for each component,
@@ -114,12 +114,12 @@ template <class Wide>
     const auto limit = Wide::bytes(above);
     const auto bits = Wide::bytes(seen);
     unsigned left = 0;
-    for (unsigned first = 0; first < count; first += 32) {
-        const unsigned here = count - first < 32 ? count - first : 32;
-        unsigned found = 0;
-        for (unsigned i = 0; i < here; i += Wide::boxes) found |= Wide::left(boxes + first + i, limit, bits) << i;
-        if (here < 32) found &= (1U << here) - 1;
-        for (; found != 0; found &= found - 1) out[left++] = ids[first + static_cast<unsigned>(__builtin_ctz(found))];
+    unsigned first = 0;
+    for (; first + Wide::boxes <= count; first += Wide::boxes)
+        left += Wide::keep(Wide::left(boxes + first, limit, bits), ids + first, out + left);
+    if (first < count) {
+        const unsigned rest = (1U << (count - first)) - 1;
+        left += Wide::keep(Wide::left(boxes + first, limit, bits) & rest, ids + first, out + left);
     }
     return left;
 }

@@ -10,7 +10,6 @@
 
 #include <exact/decide.h>
 #include <grid/grid.h>
-#include <grid/grid.h>
 
 namespace pierce {
 

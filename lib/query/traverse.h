@@ -69,6 +69,7 @@ void test_triangles(Search<Scalar>& search, std::uint32_t* ids, unsigned count, 
         counters.triangles += some;
         ids += some;
         count -= some;
+        for (unsigned i = 0; i < found; ++i) __builtin_prefetch(&scene.triangle_numbers[left[i]]);  // for the answer
         for (unsigned i = 0; i < found; ++i) {
             const std::uint32_t triangle = left[i];
             if (!collector.wants(triangle) || masked(scene, triangle, options)) continue;

@@ -1,13 +1,6 @@
 // Barnes' test: all triangles around a corner at once, by changes of basis from each to the next.
 //
-// Source: Barnes 2014, "A Beautiful Ray/Mesh Intersection Algorithm" (tavianator.com). The triangles are A R0 R1, A R1 R2, ... In the basis of
-// the first, p = A + u AB + v AC + w N, with B = R0, C = R1, N = AB x AC. Our derivation of the step to the next, A C D, where
-// p = A + u' AC + v' AD + w' N' with N' = AC x AD: the origins agree, and AC is the first vector of the new basis. The other two are
-//   AB = a AC + b AD + c N'     N = d AC + e AD + f N'
-// and by Cramer's rule, over N'.N' = [AC AD N'],
-//   a = (AB x AD).N'   b = (AC x AB).N'   c = AB.N'     d = (N x AD).N'   e = (AC x N).N'   f = N.N'
-// Putting them into p gives u' = a u + v + d w, v' = b u + e w, w' = c u + f w: six numbers, 6 multiplications, 4 additions a vector.
-// All that is asked of N is its direction. Its length is chosen as `Basis` says, so that u, v, w and the six are free of units.
+// Source: Barnes 2014, "A Beautiful Ray/Mesh Intersection Algorithm" (tavianator.com); the bases and the steps between them are in fan_basis.h.
 //
 // Counts. The source gives n divisions, 6 + 14 n multiplications, 7 + 11 n additions for a ray, that is a start and a direction; a segment
 // first needs its direction, 3 additions more. We make up for them, and stay within the same counts, by z = u + v in two places, where
@@ -21,14 +14,12 @@
 // needs no sign.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <pierce/kernels/concept.h>
+#include <pierce/kernels/fan_basis.h>
 #include <pierce/mesh_view.h>
 
 namespace pierce::kernels {
@@ -44,19 +35,10 @@ struct FanAnswer : Answer<Scalar> {
 struct TriangleFan {
     Sides sides = Sides::front;
 
-    /// The affine map to the first triangle's basis.
     template <class Number>
-    struct First {
-        Plane<Number> u;
-        Plane<Number> u_plus_v;
-        Plane<Number> height;
-    };
-    /// From the basis of one triangle to that of the next. The first `a` of a fan is lowered by one, and
-    /// in the last `a` and `d` are a + b and d + e, see above.
+    using First = FanFirst<Number>;
     template <class Number>
-    struct Turn {
-        Number a, b, c, d, e, f;
-    };
+    using Turn = FanTurn<Number>;
     /// 6 (n + 1) numbers.
     template <class Number>
     struct Stored {
@@ -66,15 +48,11 @@ struct TriangleFan {
         [[nodiscard]] std::size_t triangles() const { return turns.size() + 1; }
     };
 
-    /// What a fan can be computed with, as a power of two: 40 for float, 320 for double. See `Basis`.
-    template <class Scalar>
-    static constexpr int k_range = std::numeric_limits<Scalar>::max_exponent * 5 / 16;
-
     /// Whether there is a basis. There is if the longer of ab and ac is within 2^-40 .. 2^40 in float, 2^-320 .. 2^320 in double, and the double
     /// area, as computed, at least 2^-40 (2^-320) of its square; and none where the area is computed as zero, infinite or NaN.
     template <class Scalar>
     [[nodiscard]] static bool has_basis(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) {
-        return basis_of<Scalar>(triple<Scalar>(b) - triple<Scalar>(a), triple<Scalar>(c) - triple<Scalar>(a)).has_value();
+        return fan_basis<Scalar>(triple<Scalar>(b) - triple<Scalar>(a), triple<Scalar>(c) - triple<Scalar>(a)).has_value();
     }
 
     /// n triangles from n + 1 ring vertices. Throws `MeshError` when there is no triangle, or one without a basis, which breaks the chain, among
@@ -87,12 +65,12 @@ struct TriangleFan {
         const std::size_t last = ring.size() - 2;
         Stored<Scalar> stored;
         stored.turns.reserve(last);
-        std::optional<Basis<Scalar>> before;
+        std::optional<FanBasis<Scalar>> before;
         for (std::size_t k = 0; k <= last; ++k) {
-            const auto basis = basis_of<Scalar>(triple<Scalar>(ring[k]) - a, triple<Scalar>(ring[k + 1]) - a);
+            const auto basis = fan_basis<Scalar>(triple<Scalar>(ring[k]) - a, triple<Scalar>(ring[k + 1]) - a);
             if (!basis) throw MeshError("fan triangle " + std::to_string(k) + " has no area, or one that can't be computed with");
-            if (!before) stored.first = first_of(*basis, a);
-            else stored.turns.push_back(turn_of(*before, *basis, k == last));
+            if (!before) stored.first = fan_first(*basis, a);
+            else stored.turns.push_back(fan_turn(*before, *basis, k == last));
             before = basis;
         }
         stored.turns.front().a -= 1;
@@ -102,8 +80,8 @@ struct TriangleFan {
     template <class Scalar>
     [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) const {
         const Triple<Scalar> apex = triple<Scalar>(a);
-        const auto basis = basis_of<Scalar>(triple<Scalar>(b) - apex, triple<Scalar>(c) - apex);
-        return basis ? Stored<Scalar>{first_of(*basis, apex), {}} : Stored<Scalar>{};
+        const auto basis = fan_basis<Scalar>(triple<Scalar>(b) - apex, triple<Scalar>(c) - apex);
+        return basis ? Stored<Scalar>{fan_first(*basis, apex), {}} : Stored<Scalar>{};
     }
 
     template <class Scalar>
@@ -209,59 +187,7 @@ struct TriangleFan {
                     m.c * u.back + m.f * back_w};
         }
     };
-
-    /// Two edges at the apex times the power of two that brings their largest component into 1 .. 2, and n = ab x ac there, so that
-    /// n.n has no fourth power of a length. N is n in the world's units, n / scale.
-    ///
-    /// With R for `k_range`, which allows the exponents -R - 1 .. R: edges are at most 2 sqrt(3) < 2^1.8 long, n 2^3.6, and at least 2^-R. The
-    /// edges and N of one basis are at most 2^(2 R + 1) times as large in the units of the next. So the largest of the six, d and e, are at most
-    /// 2^(3.6 + 2 R + 1) 2^1.8 / 2^-R = 2^(3 R + 6.4), for float 2^126.4, and their numerators less; rows are at most 2^(R + 1) 2^1.8 / 2^-R.
-    template <class Scalar>
-    struct Basis {
-        Triple<Scalar> ab;
-        Triple<Scalar> ac;
-        Triple<Scalar> n;
-        Scalar square;
-        Scalar scale;
-    };
-
-    template <class Scalar>
-    static std::optional<Basis<Scalar>> basis_of(const Triple<Scalar>& ab, const Triple<Scalar>& ac) {
-        const Scalar size = std::max(std::abs(ab[largest(ab)]), std::abs(ac[largest(ac)]));
-        const int exponent = std::ilogb(size);  // of zero, infinity and NaN far out of range
-        if (exponent < -k_range<Scalar> - 1 || exponent > k_range<Scalar>) return std::nullopt;
-        const Scalar scale = std::scalbn(Scalar{1}, -exponent);
-        Basis<Scalar> basis{scale * ab, scale * ac, {}, {}, scale};
-        basis.n = cross(basis.ab, basis.ac);
-        basis.square = dot(basis.n, basis.n);
-        if (!(basis.square >= std::scalbn(Scalar{1}, -2 * k_range<Scalar>))) return std::nullopt;  // NaN too
-        return basis;
-    }
-
-    // Rows of the inverse of (AB, AC, N): the cross products of the other two columns, over [AB AC N] = n.n / scale^3.
-    template <class Scalar>
-    static First<Scalar> first_of(const Basis<Scalar>& b, const Triple<Scalar>& a) {
-        const Scalar inverse = 1 / b.square;
-        const auto row = [&](const Triple<Scalar>& x) { return plane(b.scale * (inverse * x), a); };
-        // u + v is 1 on BC: (AC x N + N x AB) = N x (AB - AC)
-        return {row(cross(b.ac, b.n)), row(cross(b.n, b.ab - b.ac)), row(b.n)};
-    }
-
-    template <class Scalar>
-    static Turn<Scalar> turn_of(const Basis<Scalar>& before, const Basis<Scalar>& basis, bool last) {
-        const Scalar units = basis.scale / before.scale;
-        const Triple<Scalar> ab = units * before.ab;
-        const Triple<Scalar> normal = units * before.n;
-        const Triple<Scalar>& ac = basis.ab;
-        const Triple<Scalar>& ad = basis.ac;
-        // a + b and d + e: (AB x AD + AC x AB) = AB x (AD - AC)
-        const Triple<Scalar> other = last ? ad - ac : ad;
-        const auto part = [&](const Triple<Scalar>& x) { return dot(x, basis.n) / basis.square; };
-        return {part(cross(ab, other)), part(cross(ac, ab)), part(ab), part(cross(normal, other)), part(cross(ac, normal)), part(normal)};
-    }
 };
-
-static_assert(sizeof(TriangleFan::First<float>) == 12 * sizeof(float) && sizeof(TriangleFan::Turn<float>) == 6 * sizeof(float));
 
 inline constexpr TriangleFan triangle_fan{};
 

@@ -1,0 +1,42 @@
+// The kernels of an instruction set, as the table of functions that queries call.
+//
+// As lanes.h: included by backend_*.cpp, with nothing that other files could share.
+#pragma once
+
+#include <kernel/backends.h>
+#include <kernel/walk.h>
+
+namespace pierce::detail {
+
+/// `Wide` for boxes, `Many` for triangles; `Few` for up to its own width of these: fewer loads for the usual few.
+template <class Wide, class Many = Wide, class Few = Many>
+struct Kernels {
+    static int block(const PackedLevel& level, const double* half_from, const double* half_to, Stop* stops) {
+        return detail::block<Wide>(level, half_from, half_to, stops);
+    }
+    static int look(const PackedLevel& level, const double* half_from, const double* half_to, std::uint32_t* out, unsigned room,
+                    unsigned* cells) {
+        return detail::look<Wide>(level, half_from, half_to, out, room, cells);
+    }
+    static Walking start_walk(const PackedLevel& level, const double* half_from, const double* half_to, double limit, bool once, Walk& walk) {
+        return detail::start_walk<Wide>(level, half_from, half_to, limit, once, walk);
+    }
+    static unsigned walk(const PackedLevel& level, Walk& walk, double limit, Stop* stops, unsigned room) {
+        return walk_on<Wide>(level, walk, limit, stops, room);
+    }
+    static unsigned cull(const std::uint64_t* boxes, const std::uint32_t* ids, unsigned count, std::uint64_t above, std::uint64_t seen,
+                         std::uint32_t* out) {
+        return detail::cull<Wide>(boxes, ids, count, above, seen, out);
+    }
+    template <class Scalar>
+    static unsigned refine(const Probe<Scalar>& probe, const Scalar* corners, std::uint32_t* ids, unsigned count, std::uint32_t* out) {
+        if (count <= Few::width) return detail::refine<Few>(probe, corners, ids, count, out);
+        return detail::refine<Many>(probe, corners, ids, count, out);
+    }
+
+    static constexpr Backend named(const char* name) {
+        return {name, block, look, start_walk, walk, cull, refine<float>, refine<double>};
+    }
+};
+
+}  // namespace pierce::detail
