@@ -15,17 +15,20 @@ namespace pierce::detail {
 
 namespace {
 
-// A cell is this many times as wide as the median box. Surfaces fill cells by area: at 2 a cell lists some ten triangles and
-// a triangle is in some three cells. Measured (tests/bench/run): less takes memory, more takes time.
-constexpr double k_cell = 2.5;
-// The next level's cells are this many times as wide; a box goes to the first level whose cells are not much smaller than it.
-constexpr double k_next_level = 4;
+// A cell is this many times as wide as the median box. Surfaces fill cells by area: at 3.5 a cell lists some 40 boxes, of which a wide
+// kernel reads eight at once, and a triangle is in less than two cells. Measured (tests/bench/run): queries take the same time from 2.5 to
+// 4.5, and less takes memory.
+constexpr double k_cell = 3.5;
+// The next level's cells are this many times as wide; a box goes to the first level whose cells are not much smaller than it. Every query asks every
+// level, so there are few.
+constexpr int k_next_level_bits = 3;
+constexpr double k_next_level = 1 << k_next_level_bits;
 constexpr double k_largest_box = 1.3;
 constexpr std::size_t k_most_levels = 24;
 constexpr std::size_t k_chunk = 1 << 13;  ///< of work for one thread
 constexpr double k_finest = 0x1p24;       ///< cells at the usual size are this many times as wide as those of the finest level
-constexpr double k_crowded = 160;         ///< see crowd()
-constexpr double k_most_extra = 0.5;  ///< entries for each triangle that is there already, rather than a level more
+constexpr double k_crowded = 1000;        ///< see crowd()
+constexpr double k_most_extra = 3;        ///< entries for each triangle that is there already, rather than a level more
 
 template <class Scalar>
 double extent(const PlainBox<Scalar>& box) {
@@ -79,7 +82,7 @@ Shares share_out(std::span<const PlainBox<Scalar>> boxes, double finest, const E
     for (std::size_t level = 0; level < k_most_levels; ++level)
         largest[level] = level + 1 == k_most_levels ? std::numeric_limits<double>::infinity()
                                                     : (level == 0 ? k_largest_box * finest : largest[level - 1] * k_next_level);
-    constexpr std::size_t k_usual = std::min<std::size_t>(std::countr_zero(static_cast<std::uint64_t>(k_finest)) / 2, k_most_levels - 1);
+    constexpr std::size_t k_usual = std::countr_zero(static_cast<std::uint64_t>(k_finest)) / k_next_level_bits;
     struct Chunk {
         std::array<std::uint32_t, k_most_levels> count{};
         std::array<PlainBox<Scalar>, k_most_levels> box;

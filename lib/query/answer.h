@@ -26,7 +26,7 @@ template <class Kernel, class Scalar, class Passed>
         Search<Scalar> search(scene, {path.from, point}, options.sides);
         Any any(passed, triangle);  // verify() has seen to the hit's own triangle
         if (shortlist != nullptr && shortlist->complete) {
-            test_triangles<Kernel>(search, shortlist->ids.data(), shortlist->count, whole, counters, any);
+            test_triangles<Kernel>(search, shortlist->ids, shortlist->count, whole, counters, any);
         } else {
             traverse<Kernel>(search, whole, counters, any);
         }
@@ -44,7 +44,8 @@ template <class Kernel, class Scalar>
                                                       QueryCounters& counters) {
     Search<Scalar> search(scene, path, options.sides);
     First<Scalar> first(scene, path, counters);
-    Shortlist shortlist;
+    std::array<std::uint32_t, Shortlist::k_most + k_beyond_ids> ids;
+    Shortlist shortlist(ids.data());
     traverse<Kernel>(search, options, counters, first, &shortlist);
     if (!first.found()) return std::nullopt;
     return answer<Kernel>(scene, path, first.best(), none_passed, options, counters, &shortlist);

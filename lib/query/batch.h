@@ -1,123 +1,149 @@
-// Many queries at once: a few are kept under way, each waiting for its next piece of memory while the others work.
+// Many queries at once: some are kept under way, and each waits for its next piece of memory while the others work.
 //
 // What a query needs comes in steps, each at an address that only the step before knows: the cell's place, its boxes, the triangles that
-// they leave. A single query waits for memory at each. Here all queries under way take a step, ask for what the next one reads, and let
-// the others go on: as in asynchronous memory access chaining (Kocberber, Falsafi and Grot 2015), but with all of them at the same step,
-// so that the branches are those of loops. The steps are those of `traverse`, so the answers are the same bits.
+// they leave. A single query waits for memory at each. Here some queries take a step one after the other, each asking for what its next one reads
+// (group prefetching: Chen, Ailamaki, Gibbons and Mowry 2004). Short segments only, as others have no such steps in common and are asked singly. The
+// steps are those of `traverse`, so the answers are the same bits.
 #pragma once
 
 #include <query/answer.h>
 
 namespace pierce::detail {
 
-/// A query under way.
+/// Queries of a group: enough to cover the latency of main memory. Measured: tests/bench/run.
+constexpr std::size_t k_group = 16;
+
+/// A query of a group.
 template <class Scalar, class Collector>
-struct Flight {
+struct Query {
     std::size_t number;
     Search<Scalar> search;
-    Cells<Scalar> cells;
     Collector collector;
     Shortlist shortlist;
-    std::array<Range, k_most_block> ranges;
-    Ids ids;
-    unsigned count = 0;
+    std::uint32_t listed = 0;  ///< by its cells
+    bool alone = false;        ///< not short, or with too many cells: asked singly
 
-    template <class MakeCollector>
-    Flight(const Scene<Scalar>& scene, std::size_t number_, const Path& path, Sides sides, MakeCollector&& make)
-        : number(number_), search(scene, path, sides), cells(search, Collector::once), collector(make(search.path)) {}
-    Flight(const Flight&) = delete;
-    Flight& operator=(const Flight&) = delete;
+    template <class Make>
+    Query(const Scene<Scalar>& scene, std::size_t number_, const Path& path, Sides sides, Make&& make)
+        : number(number_), search(scene, path, sides), collector(make(search.path)) {}
+    Query(const Query&) = delete;
+    Query& operator=(const Query&) = delete;
 };
 
-inline void prefetch(const void* from, std::size_t bytes) {
-    constexpr std::size_t k_line = 64;
-    const auto* address = static_cast<const char*>(from);
-    for (std::size_t at = 0; at < bytes; at += k_line) __builtin_prefetch(address + at);
-    __builtin_prefetch(address + bytes - 1);
-}
+/// The queries that are under way, step by step.
+template <class Scalar, class Collector>
+class Group {
+  public:
+    explicit Group(const Scene<Scalar>& scene) : scene_(scene) {}
 
-/// Enough to cover the latency of main memory by the work of the others (measured: 8 are too few, beyond 16 nothing is won).
-constexpr std::size_t k_flights = 16;
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] Query<Scalar, Collector>& operator[](std::size_t i) { return *queries_[i]; }
+    template <class Make>
+    void add(std::size_t number, const Path& path, Sides sides, Make&& make) {
+        queries_[size_++].emplace(scene_, number, path, sides, make);
+    }
+    void clear() { size_ = 0; }
+
+    /// And asks memory for their boxes.
+    void find_cells() {
+        cell_count_ = 0;
+        for (std::uint32_t i = 0; i < size_; ++i) {
+            Query<Scalar, Collector>& query = *queries_[i];
+            const Halves half(query.search.path);
+            const std::size_t before = cell_count_;
+            for (const Level& level : scene_.grid.levels()) {
+                std::array<Stop, k_most_block> stops;
+                const int found = scene_.backend->block(level.packed(), half.from.data(), half.to.data(), stops.data());
+                if (found < 0 || cell_count_ + static_cast<std::size_t>(found) > cells_.size()) {
+                    query.alone = true;
+                    cell_count_ = before;
+                    break;
+                }
+                for (int c = 0; c < found; ++c) {
+                    const Stop& stop = stops[static_cast<std::size_t>(c)];
+                    const Range range = level.range(stop.number);
+                    fetch(level, range);
+                    query.listed += range.end - range.begin;
+                    cells_[cell_count_++] = {&level, stop.cull, range, i};
+                }
+            }
+        }
+    }
+
+    void cull_boxes(QueryCounters& counters) {
+        std::uint32_t* out = ids_.data();
+        for (std::size_t c = 0; c < cell_count_;) {
+            const std::uint32_t number = cells_[c].query;
+            Query<Scalar, Collector>& query = *queries_[number];
+            query.alone = query.listed > k_most_ids;
+            query.shortlist = Shortlist(out);
+            for (; c < cell_count_ && cells_[c].query == number; ++c) {
+                if (query.alone) continue;
+                const CellOfQuery& cell = cells_[c];
+                const Level& level = *cell.level;
+                const unsigned left = scene_.backend->cull(level.boxes(cell.range.begin), level.ids(cell.range.begin),
+                                                           cell.range.end - cell.range.begin, cell.cull.above, cell.cull.seen, out);
+                for (unsigned k = 0; k < left; ++k) {
+                    const Scalar* corners = &scene_.coordinates[9 * std::size_t{out[k]}];
+                    __builtin_prefetch(corners);
+                    __builtin_prefetch(corners + 8);
+                }
+                out += left;
+                query.shortlist.count += left;
+                ++counters.cells;
+            }
+            out += k_beyond_ids;
+        }
+    }
+
+  private:
+    struct CellOfQuery {
+        const Level* level;
+        Cull cull;
+        Range range;
+        std::uint32_t query;
+    };
+
+    // As far as most cells' go.
+    static void fetch(const Level& level, const Range& range) {
+        const auto* boxes = reinterpret_cast<const char*>(level.boxes(range.begin));
+        for (std::size_t at = 0; at < 4; ++at) __builtin_prefetch(boxes + 64 * at);
+        const auto* ids = reinterpret_cast<const char*>(level.ids(range.begin));
+        for (std::size_t at = 0; at < 2; ++at) __builtin_prefetch(ids + 64 * at);
+    }
+
+    const Scene<Scalar>& scene_;
+    std::size_t size_ = 0;
+    std::size_t cell_count_ = 0;
+    std::array<std::optional<Query<Scalar, Collector>>, k_group> queries_;
+    std::array<CellOfQuery, 2 * k_most_block * k_group> cells_;
+    std::array<std::uint32_t, k_group * (k_most_ids + k_beyond_ids)> ids_;
+};
 
 /// Takes all queries through the rooms. `start(i, path)` gives the path of query i, or says that it has no meaning and is not to be asked;
 /// `make(path)` its collector; `done(i, query or null)` gets what came of it.
 template <class Kernel, class Collector, class Scalar, class Start, class Make, class Done>
 void fly(const Scene<Scalar>& scene, std::size_t count, const QueryOptions& options, QueryCounters& counters, Start&& start,
          Make&& make, Done&& done) {
-    using Query = Flight<Scalar, Collector>;
-    const Backend& backend = *scene.backend;
-    std::array<std::optional<Query>, k_flights> places;
-    std::array<Query*, k_flights> active{};
-    std::size_t under_way = 0;
-    std::size_t next = 0;
-    const auto depart = [&](std::optional<Query>& place) {
-        for (Path path; next < count; ++next) {
-            if (start(next, path)) {
-                place.emplace(scene, next++, path, options.sides, make);
-                return true;
-            }
-            done(next, static_cast<Query*>(nullptr));
+    Group<Scalar, Collector> group(scene);
+    for (std::size_t next = 0; next < count;) {
+        group.clear();
+        for (Path path; next < count && group.size() < k_group; ++next) {
+            if (start(next, path)) group.add(next, path, options.sides, make);
+            else done(next, static_cast<Query<Scalar, Collector>*>(nullptr));
         }
-        return false;
-    };
-    for (auto& place : places)
-        if (depart(place)) active[under_way++] = &*place;
-    while (under_way > 0) {
-        for (std::size_t i = 0; i < under_way;) {
-            Query& query = *active[i];
-            if (query.cells.next(std::min(query.collector.limit(), options.max_fraction))) {
-                ++i;
-                if (query.cells.all()) continue;
-                counters.cells += query.cells.stops().size();
-                for (const Stop& stop : query.cells.stops()) __builtin_prefetch(query.cells.level().start(stop.number));
-                continue;
+        group.find_cells();
+        group.cull_boxes(counters);
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            Query<Scalar, Collector>& query = group[i];
+            std::array<std::uint32_t, Shortlist::k_most + k_beyond_ids> ids;
+            if (query.alone) {
+                query.shortlist = Shortlist(ids.data());
+                traverse<Kernel>(query.search, options, counters, query.collector, &query.shortlist);
+            } else if (query.shortlist.count > 0) {
+                test_triangles<Kernel>(query.search, query.shortlist.ids, query.shortlist.count, options, counters, query.collector);
             }
             done(query.number, &query);
-            auto& place = *std::find_if(places.begin(), places.end(), [&](const auto& p) { return p && &*p == &query; });
-            if (!depart(place)) active[i] = active[--under_way];
-        }
-        for (std::size_t i = 0; i < under_way; ++i) {
-            Query& query = *active[i];
-            if (query.cells.all()) continue;
-            const Level& level = query.cells.level();
-            for (std::size_t c = 0; c < query.cells.stops().size(); ++c) {
-                const Range range = query.ranges[c] = level.range(query.cells.stops()[c].number);
-                const std::size_t some = std::min(range.end - range.begin, k_most_ids);
-                prefetch(level.boxes(range.begin), some * sizeof(PackedBox));
-                prefetch(level.ids(range.begin), some * sizeof(std::uint32_t));
-            }
-        }
-        const auto test = [&](Query& query) {
-            query.shortlist.add(query.ids.data(), query.count, query.cells.covered());
-            test_triangles<Kernel>(query.search, query.ids.data(), query.count, options, counters, query.collector);
-            query.count = 0;
-        };
-        for (std::size_t i = 0; i < under_way; ++i) {
-            Query& query = *active[i];
-            if (query.cells.all()) continue;
-            const Level& level = query.cells.level();
-            for (std::size_t c = 0; c < query.cells.stops().size(); ++c) {
-                const Cull& cull = query.cells.stops()[c].cull;
-                for (std::uint32_t begin = query.ranges[c].begin; begin < query.ranges[c].end;) {
-                    const unsigned some = std::min(query.ranges[c].end - begin, k_most_ids);
-                    if (query.count + some > k_most_ids) test(query);
-                    query.count += backend.cull(level.boxes(begin), level.ids(begin), some, cull.above, cull.seen,
-                                                query.ids.data() + query.count);
-                    begin += some;
-                }
-            }
-            for (unsigned k = 0; k < query.count; ++k) prefetch(&scene.coordinates[9 * std::size_t{query.ids[k]}], 9 * sizeof(Scalar));
-        }
-        for (std::size_t i = 0; i < under_way; ++i) {
-            Query& query = *active[i];
-            if (!query.cells.all()) {
-                test(query);
-                continue;
-            }
-            each_triangle(scene, query.cells.level().first_id(), [&](std::uint32_t* ids, unsigned some) {
-                query.shortlist.add(ids, some, true);
-                test_triangles<Kernel>(query.search, ids, some, options, counters, query.collector);
-            });
         }
     }
 }

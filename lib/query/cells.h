@@ -30,7 +30,7 @@ constexpr unsigned k_most_walk = 2;
 
 /// Room for what a few cells leave.
 constexpr unsigned k_most_ids = 256;
-using Ids = std::array<std::uint32_t, k_most_ids + 8>;
+using Ids = std::array<std::uint32_t, k_most_ids + k_beyond_ids>;
 
 /// The triangles from `first` on, in parts: `use(ids, count)`.
 template <class Scalar, class Use>
@@ -43,63 +43,6 @@ void each_triangle(const Scene<Scalar>& scene, std::uint32_t first, Use&& use) {
         use(ids.data(), some);
     }
 }
-
-/// Goes from cells to cells. Made to be left and come back to, so that a batch can wait for memory in between.
-template <class Scalar>
-class Cells {
-  public:
-    /// With `once`, no triangle is left by two cells.
-    Cells(Search<Scalar>& search, bool once) : search_(&search), half_(search.path), once_(once) {}
-
-    /// The next cells that hold something: `stops` of `level`. `limit`, a fraction of the path, says how far they are of use.
-    bool next(double limit) {
-        const std::span<const Level> levels = search_->scene.grid.levels();
-        const Backend& backend = *search_->scene.backend;
-        for (;;) {
-            if (walking_ == Walking::along) {
-                count_ = backend.walk(level_->packed(), walk_, limit, stops_.data(), k_most_walk);
-                if (count_ > 0) {
-                    search_->come_to(stops_[0].fraction);
-                    return true;
-                }
-                walking_ = Walking::no;
-            }
-            if (at_ == levels.size()) return false;
-            level_ = &levels[at_++];
-            const int found = backend.block(level_->packed(), half_.from.data(), half_.to.data(), stops_.data());
-            if (found > 0) {
-                count_ = static_cast<unsigned>(found);
-                return true;
-            }
-            if (found == 0) continue;
-            walking_ = backend.start_walk(level_->packed(), half_.from.data(), half_.to.data(), limit, once_, walk_);
-            if (walking_ == Walking::along) covered_ = covered_ && covers_points(*search_, *level_);
-            if (walking_ == Walking::never) {
-                at_ = levels.size();
-                return true;
-            }
-        }
-    }
-
-    [[nodiscard]] const Level& level() const { return *level_; }
-    [[nodiscard]] std::span<const Stop> stops() const { return {stops_.data(), count_}; }
-    /// In place of cells: the path is too long to be followed, and each triangle from this level's first one on is to be asked.
-    [[nodiscard]] bool all() const { return walking_ == Walking::never; }
-    /// What the cells leave holds for the path's rounded points as well.
-    [[nodiscard]] bool covered() const { return covered_; }
-
-  private:
-    Search<Scalar>* search_;
-    Halves half_;
-    bool once_;
-    bool covered_ = true;
-    Walking walking_ = Walking::no;
-    std::size_t at_ = 0;
-    const Level* level_ = nullptr;
-    unsigned count_ = 0;
-    std::array<Stop, k_most_block> stops_;
-    Walk walk_;
-};
 
 /// What `visit_near` does in a level where the path is not short. Returns whether the levels after this one are done as well.
 template <class Scalar, class Limit, class Use>
@@ -137,7 +80,8 @@ template <class Scalar, class Limit, class Use>
     }
 }
 
-/// Calls `use(ids, count, covered)` for the triangles whose boxes the path comes near; see `Cells`.
+/// Calls `use(ids, count, covered)` for the triangles whose boxes the path comes near; with `once`, no triangle
+/// twice.
 template <class Scalar, class Limit, class Use>
 void visit_near(Search<Scalar>& search, bool once, Limit&& limit, QueryCounters& counters, Use&& use) {
     const Backend& backend = *search.scene.backend;

@@ -9,20 +9,27 @@
 
 namespace pierce::detail {
 
+/// Room behind a list of ids that the kernels may write to.
+constexpr unsigned k_beyond_ids = 8;
+
 /// What the culling left of the cells that a query visited: all triangles that could stop a point on its way to the hit, if
 /// `complete`. So the verified point needs no second way through the grid.
 struct Shortlist {
     static constexpr unsigned k_most = 192;
 
+    Shortlist() = default;
+    /// With room for `k_most` ids and `k_beyond_ids` more.
+    explicit Shortlist(std::uint32_t* room) : ids(room) {}
+
     /// `covered`: the cells were asked for all that comes near a point of the path, rounded.
     void add(const std::uint32_t* some, unsigned number, bool covered) {
         complete = complete && covered && count + number <= k_most;
         if (!complete) return;
-        std::copy_n(some, number, ids.begin() + count);
+        std::copy_n(some, number, ids + count);
         count += number;
     }
 
-    std::array<std::uint32_t, k_most + 8> ids;
+    std::uint32_t* ids = nullptr;
     unsigned count = 0;
     bool complete = true;
 };
