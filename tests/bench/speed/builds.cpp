@@ -44,7 +44,6 @@ constexpr EmbreeOptions k_high = {.quality = RTC_BUILD_QUALITY_HIGH};
 }  // namespace
 
 void measure_builds(const std::string& mesh, const MeshView<float>& view, int repetitions, Results& results) {
-    const EmbreeDevice device("threads=1");
     const Segment<float> segment = make_segments(SegmentSet::medium, view, 1)[0];
     // The objects outlive the measurement: to take them down is not part of a build.
     std::optional<CollisionMesh<float>> ours;
@@ -55,6 +54,15 @@ void measure_builds(const std::string& mesh, const MeshView<float>& view, int re
             g_hits += ours->first_hit(segment) ? 1U : 0U;
         });
     };
+    const auto add = [&](std::string_view set, std::string_view column, double ms) {
+        results.add(mesh, set, column, ms);
+    };
+    // While there is a device of one thread, oneTBB has no more for anybody.
+    for (int r = 0; r < repetitions; ++r) {
+        add(set_name::thread_build, column::pierce, build_ours(1).wall);
+        add(set_name::thread_build, column::pierce_two_threads, build_ours(2).wall);
+    }
+    const EmbreeDevice device("threads=1");
     // If Embree used more than the one thread that it may, the time of the process would say so.
     const auto build_embree = [&](std::optional<EmbreeScene>& scene, const EmbreeOptions& options) {
         return time_of([&] {
@@ -63,20 +71,14 @@ void measure_builds(const std::string& mesh, const MeshView<float>& view, int re
                })
             .process;
     };
-    const auto add = [&](std::string_view set, std::string_view column, double ms) {
-        results.add(mesh, set, column, ms);
-    };
     for (int r = 0; r < repetitions; ++r) {
-        const Milliseconds one = build_ours(1);
-        add(set_name::build, column::pierce, one.process);
-        add(set_name::thread_build, column::pierce, one.wall);
+        add(set_name::build, column::pierce, build_ours(1).process);
         std::optional<EmbreeScene> low;
         add(set_name::build, column::embree_low, build_embree(low, k_low));
         add(set_name::build, column::embree_low_again, time_of([&] {
                                                            low->rebuild();
                                                            g_hits += embree_hits(*low, segment) ? 1U : 0U;
                                                        }).process);
-        add(set_name::thread_build, column::pierce_two_threads, build_ours(2).wall);
         if (r > 0) continue;  // slow, and for the table only
         std::optional<EmbreeScene> high;
         add(set_name::build, column::embree, build_embree(high, k_high));

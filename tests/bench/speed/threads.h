@@ -1,32 +1,25 @@
-// Threads for pierce: an executor that uses a given number of them, started anew for each call, and builds with it.
+// Threads for pierce: an executor with a given number of those of oneTBB, as most users will have it, and builds with it.
 #pragma once
 
-#include <atomic>
-#include <cstdint>
-#include <thread>
-#include <vector>
+#include <memory>
+
+#include <tbb/task_arena.h>
 
 #include <pierce/collision_mesh.h>
+#include <pierce/tbb.h>
 
 namespace pierce::bench {
 
-/// Parts go to whichever thread is free.
+/// They are kept from one call to the next.
 class Threads {
   public:
-    explicit Threads(unsigned count) : count_(count) {}
+    explicit Threads(unsigned count) : arena_(std::make_unique<tbb::task_arena>(static_cast<int>(count))) {}
     void operator()(std::size_t parts, Task task) const {
-        std::atomic<std::size_t> next = 0;
-        const auto work = [&] {
-            for (std::size_t i = next++; i < parts; i = next++) task(i);
-        };
-        std::vector<std::thread> others;
-        for (unsigned t = 1; t < count_; ++t) others.emplace_back(work);
-        work();
-        for (std::thread& other : others) other.join();
+        arena_->execute([&] { tbb_executor()(parts, task); });
     }
 
   private:
-    unsigned count_;
+    std::unique_ptr<tbb::task_arena> arena_;
 };
 
 template <class Scalar>
