@@ -134,23 +134,35 @@ Shares share_out(std::span<const PlainBox<Scalar>> boxes, double finest, const E
     return shares;
 }
 
-// Numbers sorted by keys, stably: the digits of a byte, from the last (as in Knuth, volume 3, 5.2.5).
-void sort_by_key(RawArray<std::uint32_t>& keys, RawArray<std::uint32_t>& numbers) {
+// Numbers sorted by keys, stably: digit by digit, from the last (Knuth, volume 3, 5.2.5), in parts that know where each of their digits goes.
+void sort_by_key(RawArray<std::uint32_t>& keys, RawArray<std::uint32_t>& numbers, const Executor& executor) {
+    constexpr int k_bits = 11;
+    constexpr std::size_t k_digits = std::size_t{1} << k_bits;
+    const std::size_t part = std::max<std::size_t>(std::size_t{1} << 15, keys.size() / 16 + 1);
+    const std::size_t parts = (keys.size() + part - 1) / part;
     RawArray<std::uint32_t> other_keys(keys.size());
     RawArray<std::uint32_t> other_numbers(numbers.size());
-    constexpr int k_bits = 11;
-    std::uint32_t used = 0;
-    for (const std::uint32_t key : keys) used |= key;
-    for (int shift = 0; shift < 32 && used >> shift != 0; shift += k_bits) {
-        std::array<std::uint32_t, (1 << k_bits) + 1> next{};
-        const auto digit = [&](std::uint32_t key) { return key >> shift & ((1U << k_bits) - 1); };
-        for (const std::uint32_t key : keys) ++next[digit(key) + 1];
-        std::partial_sum(next.begin(), next.end(), next.begin());
-        for (std::size_t i = 0; i < keys.size(); ++i) {
-            const std::uint32_t to = next[digit(keys[i])]++;
-            other_keys[to] = keys[i];
-            other_numbers[to] = numbers[i];
-        }
+    std::vector<std::uint32_t> next(parts * k_digits);
+    for (int shift = 0; shift < 32; shift += k_bits) {
+        const auto digit = [&](std::uint32_t key) { return key >> shift & (k_digits - 1); };
+        executor(parts, [&](std::size_t p) {
+            std::uint32_t* count = &next[p * k_digits];
+            std::fill_n(count, k_digits, 0);
+            const std::size_t end = std::min(keys.size(), (p + 1) * part);
+            for (std::size_t i = p * part; i < end; ++i) ++count[digit(keys[i])];
+        });
+        std::uint32_t sum = 0;
+        for (std::size_t d = 0; d < k_digits; ++d)
+            for (std::size_t p = 0; p < parts; ++p) sum += std::exchange(next[p * k_digits + d], sum);
+        executor(parts, [&](std::size_t p) {
+            std::uint32_t* place = &next[p * k_digits];
+            const std::size_t end = std::min(keys.size(), (p + 1) * part);
+            for (std::size_t i = p * part; i < end; ++i) {
+                const std::uint32_t to = place[digit(keys[i])]++;
+                other_keys[to] = keys[i];
+                other_numbers[to] = numbers[i];
+            }
+        });
         std::swap(keys, other_keys);
         std::swap(numbers, other_numbers);
     }
@@ -158,10 +170,7 @@ void sort_by_key(RawArray<std::uint32_t>& keys, RawArray<std::uint32_t>& numbers
 
 template <class Scalar>
 Steps steps_of(const Raster& raster, const PlainBox<Scalar>& box) {
-    const auto point = [](const std::array<Scalar, 3>& p) {
-        return Point{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-    };
-    return raster.steps(point(box.low), point(box.high));
+    return raster.steps(box.low, box.high);
 }
 
 /// How many of the boxes share a cell of a size with the average one of them, by their lower corners. (Cells that share a place of the table
@@ -205,11 +214,13 @@ void sort_by_cell(const Raster& raster, std::span<const PlainBox<Scalar>> boxes,
     executor((ids.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
         const std::size_t end = std::min(ids.size(), (chunk + 1) * k_chunk);
         for (std::size_t i = chunk * k_chunk; i < end; ++i) {
-            const Steps box = steps_of(raster, boxes[ids[i]]);
+            const PlainBox<Scalar>& box = boxes[ids[i]];
             // Half a cell at a time along each axis, ten bits of it: which place of memory a triangle gets is nobody's promise.
             std::uint32_t key = 0;
             for (std::size_t k = 0; k < 3; ++k) {
-                auto x = static_cast<std::uint32_t>(std::max(box.low[k] + (box.high[k] - box.low[k]) / 2, 0) / k_steps) & 0x3ff;
+                const double middle = 0.25 * static_cast<double>(box.low[k]) + 0.25 * static_cast<double>(box.high[k]);
+                const double place = std::clamp(raster.place(k, middle), 0.0, raster.most(k));
+                std::uint32_t x = static_cast<std::uint32_t>(place) / (k_steps / 2) & 0x3ff;
                 // Every third bit (Morton 1966).
                 x = (x | x << 16) & 0x030000ff;
                 x = (x | x << 8) & 0x0300f00f;
@@ -220,7 +231,7 @@ void sort_by_cell(const Raster& raster, std::span<const PlainBox<Scalar>> boxes,
             keys[i] = key;
         }
     });
-    sort_by_key(keys, ids);
+    sort_by_key(keys, ids, executor);
 }
 
 /// A level of the triangles `ids`, which it sorts; they get the numbers from `first` on.

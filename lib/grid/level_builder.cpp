@@ -18,7 +18,8 @@ constexpr std::size_t k_chunk = 1 << 14;  ///< of boxes, for one thread
 }  // namespace
 
 LevelBuilder::LevelBuilder(const Raster& raster, std::uint32_t first, std::span<const Steps> boxes, const Executor& executor)
-    : raster_(raster), first_(first), boxes_(boxes), executor_(executor) {
+    : raster_(raster), last_cell_{raster.cells()[0] - 1, raster.cells()[1] - 1, raster.cells()[2] - 1, 0}, first_(first), boxes_(boxes),
+      executor_(executor) {
     place_roots();
     const auto wanted = static_cast<int>(std::clamp<std::size_t>(boxes.size() / k_boxes_a_slab, 1, std::size_t{1} << 20));
     layers_ = std::max(1, roots_[slow_] / wanted);
@@ -42,15 +43,6 @@ void LevelBuilder::place_roots() {
     strides_[fast] = 1;
     strides_[middle] = static_cast<std::size_t>(roots_[fast]);
     strides_[slow_] = strides_[middle] * static_cast<std::size_t>(roots_[middle]);
-}
-
-LevelBuilder::Cells LevelBuilder::cells_of(const Steps& box) const {
-    Cells cells{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        cells.first[k] = std::max(box.low[k] - k_margin, 0) >> k_step_bits;
-        cells.last[k] = std::min((box.high[k] + k_margin) >> k_step_bits, raster_.cells()[k] - 1);
-    }
-    return cells;
 }
 
 // Calls visit(chunk, box's number) for all boxes, chunk by chunk.
@@ -109,10 +101,9 @@ void LevelBuilder::sort_by_slab() {
 
 template <class Visit>
 void LevelBuilder::each_cell(const Cells& cells, Visit&& visit) const {
-    Cell cell{};
-    for (cell[2] = cells.first[2]; cell[2] <= cells.last[2]; ++cell[2])
-        for (cell[1] = cells.first[1]; cell[1] <= cells.last[1]; ++cell[1])
-            for (cell[0] = cells.first[0]; cell[0] <= cells.last[0]; ++cell[0]) visit(cell);
+    for (int z = cells.first[2]; z <= cells.last[2]; ++z)
+        for (int y = cells.first[1]; y <= cells.last[1]; ++y)
+            for (int x = cells.first[0]; x <= cells.last[0]; ++x) visit(x, y, z);
 }
 
 void LevelBuilder::fill_slab(Level& level, std::size_t slab, std::vector<std::uint32_t>& starts) const {
@@ -126,16 +117,20 @@ void LevelBuilder::fill_slab(Level& level, std::size_t slab, std::vector<std::ui
     const auto place = [&](std::size_t k, int cell) {
         return static_cast<std::size_t>(cell >> 2) * strides_[k] * 64 + (static_cast<std::size_t>(cell & 3) << (2 * k));
     };
+    Ints first_cell = {0, 0, 0, 0};
+    Ints last_cell = last_cell_;
+    first_cell[slow_] = first_layer * 4;
+    last_cell[slow_] = last_layer * 4 - 1;
     const auto cells_in_slab = [&](const Steps& box, auto&& visit) {
         Cells cells = cells_of(box);
-        cells.first[slow_] = std::max(cells.first[slow_], first_layer * 4);
-        cells.last[slow_] = std::min(cells.last[slow_], last_layer * 4 - 1);
-        each_cell(cells, [&](const Cell& cell) {
-            visit(place(0, cell[0]) + place(1, cell[1]) + place(2, cell[2]) - first_brick * 64, cell);
+        cells.first = cells.first > first_cell ? cells.first : first_cell;
+        cells.last = cells.last < last_cell ? cells.last : last_cell;
+        each_cell(cells, [&](int x, int y, int z) {
+            visit(place(0, x) + place(1, y) + place(2, z) - first_brick * 64, Ints{x, y, z, 0});
         });
     };
     const std::span<const std::uint32_t> mine(sorted_.data() + slab_starts_[slab], slab_starts_[slab + 1] - slab_starts_[slab]);
-    for (const std::uint32_t i : mine) cells_in_slab(boxes_[i], [&](std::size_t cell, const Cell&) { ++next[cell]; });
+    for (const std::uint32_t i : mine) cells_in_slab(boxes_[i], [&](std::size_t cell, const Ints&) { ++next[cell]; });
 
     std::uint32_t sum = reference_starts_[slab];
     for (std::size_t b = 0; b < brick_count; ++b) {
@@ -152,7 +147,7 @@ void LevelBuilder::fill_slab(Level& level, std::size_t slab, std::vector<std::ui
         }
     }
     for (const std::uint32_t i : mine)
-        cells_in_slab(boxes_[i], [&](std::size_t at, const Cell& cell) {
+        cells_in_slab(boxes_[i], [&](std::size_t at, const Ints& cell) {
             const std::uint32_t to = next[at]++;
             level.boxes_[to] = pack(boxes_[i], cell);
             level.ids_[to] = first_ + i;
@@ -213,18 +208,19 @@ void LevelBuilder::build_sparse(Level& level) const {
     struct Reference {
         std::uint64_t path;
         std::uint32_t box;
-        Cell cell;
+        Ints cell;
     };
     std::vector<Reference> references;
     references.reserve(references_);
     for (std::uint32_t i = 0; i < boxes_.size(); ++i)
-        each_cell(cells_of(boxes_[i]), [&](const Cell& cell) {
+        each_cell(cells_of(boxes_[i]), [&](int x, int y, int z) {
+            const Cell cell = {x, y, z};
             std::uint64_t path = 0;
             for (std::size_t k = 0; k < 3; ++k) path += static_cast<std::uint64_t>(cell[k] >> root_shift_) * strides_[k];
             for (int shift = root_shift_ - 2; shift >= 0; shift -= 2)
                 path = path << 6 | static_cast<std::uint64_t>(
                                        std::countr_zero(Level::bit_of({cell[0] >> shift, cell[1] >> shift, cell[2] >> shift})));
-            references.push_back({path, i, cell});
+            references.push_back({path, i, Ints{x, y, z, 0}});
         });
     std::sort(references.begin(), references.end(),
               [](const Reference& x, const Reference& y) { return std::tie(x.path, x.box) < std::tie(y.path, y.box); });

@@ -21,11 +21,17 @@ class LevelBuilder {
 
   private:
     struct Cells {
-        std::array<int, 3> first;
-        std::array<int, 3> last;
+        Ints first;
+        Ints last;
     };
 
-    [[nodiscard]] Cells cells_of(const Steps& box) const;
+    [[nodiscard]] Cells cells_of(const Steps& box) const {
+        const Ints zero = {0, 0, 0, 0};
+        const Ints margin = {k_margin, k_margin, k_margin, 0};
+        const Ints low = box.low - margin;
+        const Ints high = (box.high + margin) >> k_step_bits;
+        return {(low > zero ? low : zero) >> k_step_bits, high < last_cell_ ? high : last_cell_};
+    }
     [[nodiscard]] int slab_of(int cell) const { return (cell >> root_shift_) / layers_; }
     void count_slabs();
     void sort_by_slab();
@@ -40,6 +46,7 @@ class LevelBuilder {
     void each_cell(const Cells& cells, Visit&& visit) const;
 
     const Raster raster_;
+    const Ints last_cell_;
     const std::uint32_t first_;
     const std::span<const Steps> boxes_;
     const Executor& executor_;

@@ -46,12 +46,9 @@ class Raster {
     [[nodiscard]] double most(std::size_t axis) const { return most_[axis]; }
 
     /// The steps that a box is in; -1 below all cells, the number of steps above them.
-    [[nodiscard]] Steps steps(const Point& low, const Point& high) const {
-        const auto step = [&](std::size_t k, double x) {
-            const double g = place(k, 0.5 * x);
-            return g >= 0 ? static_cast<int>(std::min(g, most_[k])) : -1;
-        };
-        return {{step(0, low[0]), step(1, low[1]), step(2, low[2])}, {step(0, high[0]), step(1, high[1]), step(2, high[2])}};
+    template <class Scalar>
+    [[nodiscard]] Steps steps(const std::array<Scalar, 3>& low, const std::array<Scalar, 3>& high) const {
+        return {step(low), step(high)};
     }
     [[nodiscard]] bool outside(const Steps& box) const {
         for (std::size_t k = 0; k < 3; ++k)
@@ -59,13 +56,22 @@ class Raster {
         return false;
     }
     /// The cell of a place in steps; the outermost one for a place outside.
-    [[nodiscard]] std::array<int, 3> cell_of(const std::array<int, 3>& step) const {
+    [[nodiscard]] std::array<int, 3> cell_of(const Ints& step) const {
         std::array<int, 3> cell{};
         for (std::size_t k = 0; k < 3; ++k) cell[k] = std::min(std::max(step[k], 0) >> k_step_bits, cells_[k] - 1);
         return cell;
     }
 
   private:
+    template <class Scalar>
+    [[nodiscard]] Ints step(const std::array<Scalar, 3>& x) const {
+        const auto along = [&](std::size_t k) {
+            const double g = place(k, 0.5 * static_cast<double>(x[k]));
+            return g >= 0 ? static_cast<int>(std::min(g, most_[k])) : -1;
+        };
+        return Ints{along(0), along(1), along(2), 0};
+    }
+
     Point half_low_ = {0, 0, 0};
     Point scale_ = {0, 0, 0};  ///< steps for each half unit
     Point most_ = {k_steps, k_steps, k_steps};

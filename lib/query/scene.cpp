@@ -58,7 +58,10 @@ void copy_in_order(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const Exe
             const IndexTriple& t = mesh.triangles[scene.triangle_numbers[i]];
             scene.triangles[i] = t;
             Scalar* to = &scene.coordinates[9 * i];
-            for (const std::uint32_t vertex : t) to = std::copy_n(mesh.positions[vertex].data(), 3, to);
+            for (const std::uint32_t vertex : t) {
+                const Scalar* from = mesh.positions[vertex].data();
+                for (std::size_t k = 0; k < 3; ++k) *to++ = from[k];
+            }
         }
     });
     scene.vertex_count = mesh.positions.size();

@@ -47,7 +47,9 @@ void measure_builds(const std::string& mesh, const MeshView<float>& view, int re
     const Segment<float> segment = make_segments(SegmentSet::medium, view, 1)[0];
     // The objects outlive the measurement: to take them down is not part of a build.
     std::optional<CollisionMesh<float>> ours;
-    const auto build_ours = [&](unsigned threads) {
+    const Threads one(1);
+    const Threads two(2);
+    const auto build_ours = [&](const Threads& threads) {
         ours.reset();
         return time_of([&] {
             ours.emplace(build(view, threads));
@@ -57,11 +59,6 @@ void measure_builds(const std::string& mesh, const MeshView<float>& view, int re
     const auto add = [&](std::string_view set, std::string_view column, double ms) {
         results.add(mesh, set, column, ms);
     };
-    // While there is a device of one thread, oneTBB has no more for anybody.
-    for (int r = 0; r < repetitions; ++r) {
-        add(set_name::thread_build, column::pierce, build_ours(1).wall);
-        add(set_name::thread_build, column::pierce_two_threads, build_ours(2).wall);
-    }
     const EmbreeDevice device("threads=1");
     // If Embree used more than the one thread that it may, the time of the process would say so.
     const auto build_embree = [&](std::optional<EmbreeScene>& scene, const EmbreeOptions& options) {
@@ -72,7 +69,10 @@ void measure_builds(const std::string& mesh, const MeshView<float>& view, int re
             .process;
     };
     for (int r = 0; r < repetitions; ++r) {
-        add(set_name::build, column::pierce, build_ours(1).process);
+        const Milliseconds alone = build_ours(one);
+        add(set_name::build, column::pierce, alone.process);
+        add(set_name::thread_build, column::pierce, alone.wall);
+        add(set_name::thread_build, column::pierce_two_threads, build_ours(two).wall);
         std::optional<EmbreeScene> low;
         add(set_name::build, column::embree_low, build_embree(low, k_low));
         add(set_name::build, column::embree_low_again, time_of([&] {
@@ -129,7 +129,7 @@ void measure_peak(const BenchMesh& mesh) {
         const TriangleSoup<float> soup = mesh.load();
         const auto segments = make_segments(SegmentSet::short_1, soup.view(), 10'000);
         std::ofstream("/proc/self/clear_refs") << "5\n";  // from here on the peak is that of the build
-        const CollisionMesh<float> ours = build(soup.view(), 1);
+        const CollisionMesh<float> ours(soup.view());
         std::size_t hits = 0;
         for (const Segment<float>& s : segments) hits += ours.first_hit(s) ? 1U : 0U;
         std::ifstream in("/proc/self/status");

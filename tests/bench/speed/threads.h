@@ -1,31 +1,73 @@
-// Threads for pierce: an executor with a given number of those of oneTBB, as most users will have it, and builds with it.
+// Threads for pierce: an executor with a given number of them, and builds with it. Not oneTBB's: Embree limits those for the whole process.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
-
-#include <tbb/task_arena.h>
+#include <optional>
+#include <thread>
+#include <vector>
 
 #include <pierce/collision_mesh.h>
-#include <pierce/tbb.h>
 
 namespace pierce::bench {
 
-/// They are kept from one call to the next.
+/// Kept from one call to the next; parts go to whichever thread is free.
 class Threads {
   public:
-    explicit Threads(unsigned count) : arena_(std::make_unique<tbb::task_arena>(static_cast<int>(count))) {}
+    explicit Threads(unsigned count) : work_(std::make_unique<Work>()) {
+        for (unsigned t = 1; t < count; ++t) others_.emplace_back([work = work_.get()](const std::stop_token& stop) { work->serve(stop); });
+    }
+    ~Threads() {
+        for (std::jthread& other : others_) other.request_stop();
+        work_->wake();
+    }
+    Threads(const Threads&) = delete;
+    Threads& operator=(const Threads&) = delete;
+
     void operator()(std::size_t parts, Task task) const {
-        arena_->execute([&] { tbb_executor()(parts, task); });
+        work_->task = task;
+        work_->parts = parts;
+        work_->next = 0;
+        work_->busy = static_cast<int>(others_.size());
+        work_->wake();
+        work_->take();
+        for (int busy = work_->busy; busy > 0; busy = work_->busy) work_->busy.wait(busy);
     }
 
   private:
-    std::unique_ptr<tbb::task_arena> arena_;
+    struct Work {
+        std::optional<Task> task;
+        std::size_t parts = 0;
+        std::atomic<std::size_t> next = 0;
+        std::atomic<int> busy = 0;
+        std::atomic<std::uint64_t> calls = 0;
+
+        void wake() {
+            ++calls;
+            calls.notify_all();
+        }
+        void take() {
+            for (std::size_t i = next++; i < parts; i = next++) (*task)(i);
+        }
+        void serve(const std::stop_token& stop) {
+            for (std::uint64_t seen = 0;;) {
+                calls.wait(seen);
+                seen = calls;
+                if (stop.stop_requested()) return;
+                take();
+                if (--busy == 0) busy.notify_all();
+            }
+        }
+    };
+
+    std::unique_ptr<Work> work_;
+    std::vector<std::jthread> others_;
 };
 
 template <class Scalar>
-CollisionMesh<Scalar> build(const MeshView<Scalar>& mesh, unsigned threads) {
-    const Threads executor(threads);
-    return CollisionMesh<Scalar>(mesh, {.executor = threads > 1 ? Executor(executor) : Executor()});
+CollisionMesh<Scalar> build(const MeshView<Scalar>& mesh, const Threads& threads) {
+    return CollisionMesh<Scalar>(mesh, {.executor = Executor(threads)});
 }
 
 }  // namespace pierce::bench
