@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include <chunks.h>
 #include <grid/level_builder.h>
 #include <raw_array.h>
 
@@ -25,7 +26,6 @@ constexpr int k_next_level_bits = 3;
 constexpr double k_next_level = 1 << k_next_level_bits;
 constexpr double k_largest_box = 1.3;
 constexpr std::size_t k_most_levels = 24;
-constexpr std::size_t k_chunk = 1 << 13;  ///< of work for one thread
 constexpr double k_finest = 0x1p24;       ///< cells at the usual size are this many times as wide as those of the finest level
 constexpr double k_crowded = 1000;        ///< see crowd()
 constexpr double k_most_extra = 3;        ///< entries for each triangle that is there already, rather than a level more
@@ -87,13 +87,12 @@ Shares share_out(std::span<const PlainBox<Scalar>> boxes, double finest, const E
         std::array<std::uint32_t, k_most_levels> count{};
         std::array<PlainBox<Scalar>, k_most_levels> box;
     };
-    std::vector<Chunk> chunks((boxes.size() + k_chunk - 1) / k_chunk);
+    std::vector<Chunk> chunks(chunks_of(boxes.size()));
     RawArray<std::uint8_t> levels(boxes.size());
     constexpr std::uint8_t k_none = 0xff;
-    executor(chunks.size(), [&](std::size_t c) {
+    each_chunk(executor, boxes.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
         Chunk& chunk = chunks[c];
-        const std::size_t end = std::min(boxes.size(), (c + 1) * k_chunk);
-        for (std::size_t i = c * k_chunk; i < end; ++i) {
+        for (std::size_t i = begin; i < end; ++i) {
             if (!boxes[i].listed()) {
                 levels[i] = k_none;
                 continue;
@@ -126,9 +125,8 @@ Shares share_out(std::span<const PlainBox<Scalar>> boxes, double finest, const E
         }
         shares[level].ids = RawArray<std::uint32_t>(before);
     }
-    executor(chunks.size(), [&](std::size_t c) {
-        const std::size_t end = std::min(boxes.size(), (c + 1) * k_chunk);
-        for (std::size_t i = c * k_chunk; i < end; ++i)
+    each_chunk(executor, boxes.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
             if (levels[i] != k_none) shares[levels[i]].ids[chunks[c].count[levels[i]]++] = static_cast<std::uint32_t>(i);
     });
     return shares;
@@ -139,38 +137,33 @@ void sort_by_key(RawArray<std::uint32_t>& keys, RawArray<std::uint32_t>& numbers
     constexpr int k_bits = 11;
     constexpr std::size_t k_digits = std::size_t{1} << k_bits;
     const std::size_t part = std::max<std::size_t>(std::size_t{1} << 15, keys.size() / 16 + 1);
-    const std::size_t parts = (keys.size() + part - 1) / part;
+    const std::size_t parts = chunks_of(keys.size(), part);
     RawArray<std::uint32_t> other_keys(keys.size());
     RawArray<std::uint32_t> other_numbers(numbers.size());
     std::vector<std::uint32_t> next(parts * k_digits);
     for (int shift = 0; shift < 32; shift += k_bits) {
         const auto digit = [&](std::uint32_t key) { return key >> shift & (k_digits - 1); };
-        executor(parts, [&](std::size_t p) {
-            std::uint32_t* count = &next[p * k_digits];
-            std::fill_n(count, k_digits, 0);
-            const std::size_t end = std::min(keys.size(), (p + 1) * part);
-            for (std::size_t i = p * part; i < end; ++i) ++count[digit(keys[i])];
-        });
+        const auto count = [&](std::size_t p, std::size_t begin, std::size_t end) {
+            std::uint32_t* counts = &next[p * k_digits];
+            std::fill_n(counts, k_digits, 0);
+            for (std::size_t i = begin; i < end; ++i) ++counts[digit(keys[i])];
+        };
+        each_chunk(executor, keys.size(), count, part);
         std::uint32_t sum = 0;
         for (std::size_t d = 0; d < k_digits; ++d)
             for (std::size_t p = 0; p < parts; ++p) sum += std::exchange(next[p * k_digits + d], sum);
-        executor(parts, [&](std::size_t p) {
-            std::uint32_t* place = &next[p * k_digits];
-            const std::size_t end = std::min(keys.size(), (p + 1) * part);
-            for (std::size_t i = p * part; i < end; ++i) {
-                const std::uint32_t to = place[digit(keys[i])]++;
+        const auto move = [&](std::size_t p, std::size_t begin, std::size_t end) {
+            std::uint32_t* places = &next[p * k_digits];
+            for (std::size_t i = begin; i < end; ++i) {
+                const std::uint32_t to = places[digit(keys[i])]++;
                 other_keys[to] = keys[i];
                 other_numbers[to] = numbers[i];
             }
-        });
+        };
+        each_chunk(executor, keys.size(), move, part);
         std::swap(keys, other_keys);
         std::swap(numbers, other_numbers);
     }
-}
-
-template <class Scalar>
-Steps steps_of(const Raster& raster, const PlainBox<Scalar>& box) {
-    return raster.steps(box.low, box.high);
 }
 
 /// How many of the boxes share a cell of a size with the average one of them, by their lower corners. (Cells that share a place of the table
@@ -182,7 +175,7 @@ double crowd(const Share& share, std::span<const PlainBox<Scalar>> boxes, double
     const Raster raster(share.box, cell);
     double sum = 0;
     for (const std::uint32_t id : share.ids) {
-        const std::array<int, 3> at = raster.cell_of(steps_of(raster, boxes[id]).low);
+        const std::array<int, 3> at = raster.cell_of(raster.steps(boxes[id].low, boxes[id].high).low);
         const std::uint64_t key = static_cast<std::uint64_t>(at[0]) << 42 | static_cast<std::uint64_t>(at[1]) << 21 |
                                   static_cast<std::uint64_t>(at[2]);
         // Fibonacci hashing (Knuth, volume 3, 6.4).
@@ -211,9 +204,8 @@ template <class Scalar>
 void sort_by_cell(const Raster& raster, std::span<const PlainBox<Scalar>> boxes, RawArray<std::uint32_t>& ids,
                   const Executor& executor) {
     RawArray<std::uint32_t> keys(ids.size());
-    executor((ids.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
-        const std::size_t end = std::min(ids.size(), (chunk + 1) * k_chunk);
-        for (std::size_t i = chunk * k_chunk; i < end; ++i) {
+    each_chunk(executor, ids.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
             const PlainBox<Scalar>& box = boxes[ids[i]];
             // Half a cell at a time along each axis, ten bits of it: which place of memory a triangle gets is nobody's promise.
             std::uint32_t key = 0;
@@ -245,9 +237,8 @@ Level build_level(const Box& box, RawArray<std::uint32_t>& ids, std::uint32_t fi
         const bool single = raster.cells() == std::array<int, 3>{1, 1, 1};
         if (!sorted) sort_by_cell(raster, boxes, ids, executor);
         sorted = true;
-        executor((steps.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
-            const std::size_t end = std::min(steps.size(), (chunk + 1) * k_chunk);
-            for (std::size_t i = chunk * k_chunk; i < end; ++i) steps[i] = steps_of(raster, boxes[ids[i]]);
+        each_chunk(executor, steps.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) steps[i] = raster.steps(boxes[ids[i]].low, boxes[ids[i]].high);
         });
         LevelBuilder builder(raster, first, std::span<const Steps>(steps.data(), steps.size()), executor);
         // 16 bytes a reference: a start for each cell that lists something, and there are at most as many of these. For roots, see

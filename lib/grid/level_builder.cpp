@@ -7,13 +7,14 @@
 #include <tuple>
 #include <utility>
 
+#include <chunks.h>
+
 namespace pierce::detail {
 
 namespace {
 
 // Enough for a slab's counters to stay in the second-level cache, and for slabs to share among threads.
 constexpr std::size_t k_boxes_a_slab = 4096;
-constexpr std::size_t k_chunk = 1 << 14;  ///< of boxes, for one thread
 
 }  // namespace
 
@@ -47,18 +48,17 @@ void LevelBuilder::place_roots() {
 
 // Calls visit(chunk, box's number) for all boxes, chunk by chunk.
 template <class Visit>
-void LevelBuilder::each_chunk(Visit&& visit) const {
-    executor_((boxes_.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
-        const std::size_t end = std::min(boxes_.size(), (chunk + 1) * k_chunk);
-        for (std::size_t i = chunk * k_chunk; i < end; ++i) visit(chunk, i);
+void LevelBuilder::each_box(Visit&& visit) const {
+    each_chunk(executor_, boxes_.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) visit(chunk, i);
     });
 }
 
 void LevelBuilder::count_slabs() {
-    const std::size_t chunks = (boxes_.size() + k_chunk - 1) / k_chunk;
+    const std::size_t chunks = chunks_of(boxes_.size());
     chunk_starts_.assign(chunks * slabs_, 0);
     std::vector<std::size_t> references(chunks * slabs_, 0);
-    each_chunk([&](std::size_t chunk, std::size_t i) {
+    each_box([&](std::size_t chunk, std::size_t i) {
         const Cells cells = cells_of(boxes_[i]);
         std::size_t area = 1;
         for (std::size_t k = 0; k < 3; ++k)
@@ -91,7 +91,7 @@ void LevelBuilder::count_slabs() {
 
 void LevelBuilder::sort_by_slab() {
     sorted_ = RawArray<std::uint32_t>(slab_starts_.back());
-    each_chunk([&](std::size_t chunk, std::size_t i) {
+    each_box([&](std::size_t chunk, std::size_t i) {
         const Cells cells = cells_of(boxes_[i]);
         const int last = slab_of(cells.last[slow_]);
         for (int slab = slab_of(cells.first[slow_]); slab <= last; ++slab)

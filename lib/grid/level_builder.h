@@ -37,7 +37,7 @@ class LevelBuilder {
     void sort_by_slab();
     void place_roots();
     template <class Visit>
-    void each_chunk(Visit&& visit) const;
+    void each_box(Visit&& visit) const;
     void build_dense(Level& level) const;
     void build_sparse(Level& level) const;
     void fill_slab(Level& level, std::size_t slab, std::vector<std::uint32_t>& starts) const;

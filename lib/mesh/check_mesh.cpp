@@ -7,6 +7,8 @@
 #include <limits>
 #include <string>
 
+#include <chunks.h>
+
 namespace pierce::detail {
 
 namespace {
@@ -16,13 +18,11 @@ constexpr std::size_t k_most = std::numeric_limits<std::uint32_t>::max() - 1;
 // Whether there is nothing to complain about; what there is, is looked for again one by one.
 template <class Scalar>
 bool is_sound(const MeshView<Scalar>& mesh, const Executor& executor) {
-    constexpr std::size_t k_chunk = 1 << 14;
     std::atomic<bool> sound = true;
     const auto each = [&](std::size_t count, auto&& holds) {
-        executor((count + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
-            const std::size_t end = std::min(count, (chunk + 1) * k_chunk);
+        each_chunk(executor, count, [&](std::size_t, std::size_t begin, std::size_t end) {
             bool all = true;
-            for (std::size_t i = chunk * k_chunk; i < end; ++i) all = holds(i) && all;
+            for (std::size_t i = begin; i < end; ++i) all = holds(i) && all;
             if (!all) sound.store(false, std::memory_order_relaxed);
         });
     };

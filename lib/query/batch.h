@@ -1,9 +1,9 @@
 // Many queries at once: some are kept under way, and each waits for its next piece of memory while the others work.
 //
 // What a query needs comes in steps, each at an address that only the step before knows: the cell's place, its boxes, the triangles that
-// they leave. A single query waits for memory at each. Here some queries take a step one after the other, each asking for what its next one reads
-// (group prefetching: Chen, Ailamaki, Gibbons and Mowry 2004). Short segments only, as others have no such steps in common and are asked singly. The
-// steps are those of `traverse`, so the answers are the same bits.
+// they leave. A single query waits for memory at each. Here some queries take a step one after the other, each asking for what its next
+// one reads (group prefetching: Chen, Ailamaki, Gibbons and Mowry 2004). Short segments only: others have no such steps in common and are asked
+// singly. The steps are those of `traverse`, so the answers are the same bits.
 #pragma once
 
 #include <query/answer.h>

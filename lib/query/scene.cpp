@@ -5,6 +5,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include <chunks.h>
 #include <environment.h>
 #include <exact/decide.h>
 #include <kernel/plane.h>
@@ -13,8 +14,6 @@
 namespace pierce::detail {
 
 namespace {
-
-constexpr std::size_t k_chunk = 1 << 14;
 
 template <class Scalar>
 std::size_t count_faces(const Scene<Scalar>& scene) {
@@ -26,9 +25,8 @@ std::size_t count_faces(const Scene<Scalar>& scene) {
 template <class Scalar>
 RawArray<PlainBox<Scalar>> make_boxes(const MeshView<Scalar>& mesh, const Executor& executor) {
     RawArray<PlainBox<Scalar>> boxes(mesh.triangles.size());
-    executor((boxes.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
-        const std::size_t end = std::min(boxes.size(), (chunk + 1) * k_chunk);
-        for (std::size_t i = chunk * k_chunk; i < end; ++i) {
+    each_chunk(executor, boxes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
             const IndexTriple& t = mesh.triangles[i];
             const Scalar* a = mesh.positions[t[0]].data();
             const Scalar* b = mesh.positions[t[1]].data();
@@ -52,9 +50,8 @@ void copy_in_order(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const Exe
     scene.triangles = RawArray<IndexTriple>(count);
     scene.coordinates = RawArray<Scalar>(9 * count + 1);
     scene.coordinates[9 * count] = 0;
-    executor((count + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
-        const std::size_t end = std::min(count, (chunk + 1) * k_chunk);
-        for (std::size_t i = chunk * k_chunk; i < end; ++i) {
+    each_chunk(executor, count, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
             const IndexTriple& t = mesh.triangles[scene.triangle_numbers[i]];
             scene.triangles[i] = t;
             Scalar* to = &scene.coordinates[9 * i];
