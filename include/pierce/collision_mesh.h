@@ -75,8 +75,8 @@ class CollisionMesh {
                                                         const QueryOptions& options = {}) const noexcept;
 
     /// Many queries in one call: `out[i]` is what the single query for number i gives, to the last bit, whatever the executor and however
-    /// the queries are cut into calls. Several times as fast as single calls where the mesh does not fit into the caches, since the queries
-    /// wait for memory together. Returns the number of hits. Allocates nothing. `out` must be as long as the queries are many; if
+    /// the queries are cut into calls. Short segments are faster than by single calls where the mesh does not fit into the caches, up to
+    /// twice, since they wait for memory together. Returns the number of hits. Allocates nothing. `out` must be as long as the queries are many; if
     /// it is not, std::invalid_argument is thrown.
     std::size_t first_hits(std::span<const Segment<Scalar>> segments, std::span<std::optional<Hit<Scalar>>> out,
                            const BatchOptions& options = {}) const;

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include <chunks.h>
@@ -232,9 +232,10 @@ Level build_level(const Box& box, RawArray<std::uint32_t>& ids, std::uint32_t fi
                   std::span<const PlainBox<Scalar>> boxes, std::size_t max_bytes, const Executor& executor) {
     RawArray<Steps> steps(ids.size());
     bool sorted = false;
-    for (;; size *= 1.25) {
+    for (;;) {
         const Raster raster(box, size);
-        const bool single = raster.cells() == std::array<int, 3>{1, 1, 1};
+        // Beyond the range of a double no cells are larger.
+        const bool largest = raster.cells() == std::array<int, 3>{1, 1, 1} || !(size < 0x1p1023);
         if (!sorted) sort_by_cell(raster, boxes, ids, executor);
         sorted = true;
         each_chunk(executor, steps.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -244,8 +245,14 @@ Level build_level(const Box& box, RawArray<std::uint32_t>& ids, std::uint32_t fi
         // 16 bytes a reference: a start for each cell that lists something, and there are at most as many of these. For roots, see
         // the builder; further nodes are few.
         const double bytes = 16.0 * static_cast<double>(builder.reference_count()) + 8.0 * static_cast<double>(ids.size()) + 1024;
-        if (!single && (bytes > static_cast<double>(max_bytes) || builder.reference_count() > 0xffff'fff0U)) continue;
-        return builder.build();
+        const bool countable = builder.reference_count() <= 0xffff'fff0U;
+        if (countable && (largest || bytes <= static_cast<double>(max_bytes))) return builder.build();
+        if (largest) throw std::length_error("the grid of a mesh with so many triangles of this size can't be numbered");
+        // Larger ones; and no size for which the raster, which has only so many cells, would be the same.
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < 3; ++k)
+            if (raster.cells()[k] > 1) least = std::min(least, raster.size(k));
+        size = std::max(1.25 * size, least);
     }
 }
 

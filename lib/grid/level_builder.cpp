@@ -15,6 +15,7 @@ namespace {
 
 // Enough for a slab's counters to stay in the second-level cache, and for slabs to share among threads.
 constexpr std::size_t k_boxes_a_slab = 4096;
+constexpr std::size_t k_most_slabs = 2048;  ///< each chunk of boxes has 12 bytes for each: 3 a box
 
 }  // namespace
 
@@ -22,7 +23,7 @@ LevelBuilder::LevelBuilder(const Raster& raster, std::uint32_t first, std::span<
     : raster_(raster), last_cell_{raster.cells()[0] - 1, raster.cells()[1] - 1, raster.cells()[2] - 1, 0}, first_(first), boxes_(boxes),
       executor_(executor) {
     place_roots();
-    const auto wanted = static_cast<int>(std::clamp<std::size_t>(boxes.size() / k_boxes_a_slab, 1, std::size_t{1} << 20));
+    const auto wanted = static_cast<int>(std::clamp<std::size_t>(boxes.size() / k_boxes_a_slab, 1, k_most_slabs));
     layers_ = std::max(1, roots_[slow_] / wanted);
     slabs_ = static_cast<std::size_t>((roots_[slow_] + layers_ - 1) / layers_);
     count_slabs();

@@ -150,14 +150,17 @@ template <class Wide>
         return stops_in_brick<Wide>(*brick, first_brick << 2, reach, stops, 0);
     }
     if (Wide::negative(one - more) != 0) return -1;
+    // Bit k of a brick: the second one along axis k. Of two bricks or four, and not of eight with branches for those there are not.
+    const unsigned most_bits = Wide::negative(zero - more);
     int found = 0;
-    for (int i = 0; i < 8; ++i) {
-        const Int4 brick_at = first_brick + Int4{i & 1, i >> 1 & 1, i >> 2, 0};
-        if (Wide::negative(first_brick + more - brick_at) != 0) continue;
+    for (unsigned bits = 0;; bits = (bits - most_bits) & most_bits) {
+        const Int4 brick_at = first_brick + Int4{static_cast<int>(bits & 1), static_cast<int>(bits >> 1 & 1), static_cast<int>(bits >> 2), 0};
         const Node* brick = find_brick<Wide>(level, brick_at[0], brick_at[1], brick_at[2]);
-        if (brick == nullptr) continue;
-        found = stops_in_brick<Wide>(*brick, brick_at << 2, reach, stops, found);
-        if (found < 0) return -1;
+        if (brick != nullptr) {
+            found = stops_in_brick<Wide>(*brick, brick_at << 2, reach, stops, found);
+            if (found < 0) return -1;
+        }
+        if (bits == most_bits) break;
     }
     return found;
 }

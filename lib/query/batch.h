@@ -54,7 +54,7 @@ class Group {
             for (const Level& level : scene_.grid.levels()) {
                 std::array<Stop, k_most_block> stops;
                 const int found = scene_.backend->block(level.packed(), half.from.data(), half.to.data(), stops.data());
-                if (found < 0 || cell_count_ + static_cast<std::size_t>(found) > cells_.size()) {
+                if (found < 0 || cell_count_ - before + static_cast<std::size_t>(found) > k_most_cells) {
                     query.alone = true;
                     cell_count_ = before;
                     break;
@@ -97,6 +97,8 @@ class Group {
     }
 
   private:
+    static constexpr std::size_t k_most_cells = 2 * k_most_block;  ///< of a query, in all levels
+
     struct CellOfQuery {
         const Level* level;
         Cull cull;
@@ -116,7 +118,7 @@ class Group {
     std::size_t size_ = 0;
     std::size_t cell_count_ = 0;
     std::array<std::optional<Query<Scalar, Collector>>, k_group> queries_;
-    std::array<CellOfQuery, 2 * k_most_block * k_group> cells_;
+    std::array<CellOfQuery, k_most_cells * k_group> cells_;
     std::array<std::uint32_t, k_group * (k_most_ids + k_beyond_ids)> ids_;
 };
 

@@ -29,7 +29,7 @@ template <class Scalar>
 constexpr unsigned k_most_walk = 2;
 
 /// Room for what a few cells leave.
-constexpr unsigned k_most_ids = 256;
+constexpr unsigned k_most_ids = Shortlist::k_most;
 using Ids = std::array<std::uint32_t, k_most_ids + k_beyond_ids>;
 
 /// The triangles from `first` on, in parts: `use(ids, count)`.

@@ -2,7 +2,9 @@
 #include <query/scene.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <exception>
 #include <unordered_set>
 
 #include <chunks.h>
@@ -83,12 +85,19 @@ std::size_t Scene<Scalar>::bytes() const {
 
 template <class Scalar>
 Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options) {
-    // The caller's threads have floating-point environments of their own.
+    // The caller's threads have floating-point environments of their own, and no use for what is thrown, when memory is at an end.
     const auto in_standard_arithmetic = [&](std::size_t parts, Task task) {
+        std::atomic_flag failed;
+        std::exception_ptr failure;
         options.executor(parts, [&](std::size_t part) {
             const StandardArithmetic standard;
-            task(part);
+            try {
+                task(part);
+            } catch (...) {
+                if (!failed.test_and_set()) failure = std::current_exception();
+            }
         });
+        if (failure) std::rethrow_exception(failure);
     };
     const Executor executor = options.executor ? Executor(in_standard_arithmetic) : Executor();
     check_mesh(mesh, executor);

@@ -15,7 +15,7 @@ constexpr unsigned k_beyond_ids = 8;
 /// What the culling left of the cells that a query visited: all triangles that could stop a point on its way to the hit, if
 /// `complete`. So the verified point needs no second way through the grid.
 struct Shortlist {
-    static constexpr unsigned k_most = 192;
+    static constexpr unsigned k_most = 256;
 
     Shortlist() = default;
     /// With room for `k_most` ids and `k_beyond_ids` more.
