@@ -33,24 +33,19 @@ class Level {
     [[nodiscard]] const PackedBox* boxes(std::uint32_t place) const { return packed_.boxes + place; }
     [[nodiscard]] const std::uint32_t* ids(std::uint32_t place) const { return packed_.ids + place; }
 
-    /// Where a cell is in the tree: its brick, if that has any cells that hold something, else a cube around it that has none.
-    struct Place {
-        const Node* brick;  ///< or null
-        int shift;          ///< the cube: of 2^shift cells along each axis, at a multiple of that,
-        int reach;          ///< and this many cells more on all sides
-    };
-    [[nodiscard]] Place find(const Cell& cell) const {
+    /// What a cell lists.
+    [[nodiscard]] Range range(const Cell& cell) const {
         const int top = packed_.root_shift;
         const Node* node = packed_.nodes + (static_cast<std::size_t>(cell[0] >> top) * packed_.strides[0] +
                                             static_cast<std::size_t>(cell[1] >> top) * packed_.strides[1] +
                                             static_cast<std::size_t>(cell[2] >> top) * packed_.strides[2]);
-        if (node->parts == 0) return {nullptr, top, static_cast<int>(node->empty - 1) << top};
-        for (int shift = top - 2; shift > 0; shift -= 2) {
+        for (int shift = top - 2;; shift -= 2) {
             const std::uint64_t bit = bit_of({cell[0] >> shift, cell[1] >> shift, cell[2] >> shift});
-            if ((node->parts & bit) == 0) return {nullptr, shift, 0};
-            node = packed_.nodes + number(*node, bit);
+            if ((node->parts & bit) == 0) return {};
+            const std::uint32_t part = number(*node, bit);
+            if (shift == 0) return range(part);
+            node = packed_.nodes + part;
         }
-        return {node, 0, 0};
     }
     [[nodiscard]] static std::uint64_t bit_of(const Cell& cell) {
         return std::uint64_t{1} << ((cell[0] & 3) | (cell[1] & 3) << 2 | (cell[2] & 3) << 4);

@@ -34,7 +34,6 @@ class Raster {
     /// The edge of a cell along an axis; infinite for cells beyond the range of a double.
     [[nodiscard]] double size(std::size_t axis) const { return 2 * k_steps / scale_[axis]; }
 
-    [[nodiscard]] double half_size(std::size_t axis) const { return k_steps / scale_[axis]; }
     [[nodiscard]] double least_size() const { return std::min({size(0), size(1), size(2)}); }
 
     /// Where a coordinate is, in steps, not rounded to whole ones: may be far outside of the cells, or infinite. `half`: half of the

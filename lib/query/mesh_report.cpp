@@ -217,11 +217,7 @@ class Reporter {
             for (const Level& level : grid.levels()) {
                 const Steps at = level.raster().steps(positions_[v], positions_[v]);
                 if (level.raster().outside(at)) continue;
-                const Cell cell = level.raster().cell_of(at.low);
-                const Node* brick = level.find(cell).brick;
-                const std::uint64_t bit = Level::bit_of(cell);
-                if (brick == nullptr || (brick->parts & bit) == 0) continue;
-                const Range range = level.range(Level::number(*brick, bit));
+                const Range range = level.range(level.raster().cell_of(at.low));
                 for (std::uint32_t i = range.begin; i < range.end && !found; ++i) found = lies_on(v, border_[order[*level.ids(i)]]);
             }
             if (found) note(report_.t_junctions, report_.t_junction_list, v);
