@@ -149,6 +149,9 @@ void sort_by_key(RawArray<std::uint32_t>& keys, RawArray<std::uint32_t>& numbers
             for (std::size_t i = begin; i < end; ++i) ++counts[digit(keys[i])];
         };
         each_chunk(executor, keys.size(), count, part);
+        std::size_t zeros = 0;
+        for (std::size_t p = 0; p < parts; ++p) zeros += next[p * k_digits];
+        if (zeros == keys.size()) continue;  // as the high digits of a small level's are
         std::uint32_t sum = 0;
         for (std::size_t d = 0; d < k_digits; ++d)
             for (std::size_t p = 0; p < parts; ++p) sum += std::exchange(next[p * k_digits + d], sum);
@@ -230,14 +233,12 @@ void sort_by_cell(const Raster& raster, std::span<const PlainBox<Scalar>> boxes,
 template <class Scalar>
 Level build_level(const Box& box, RawArray<std::uint32_t>& ids, std::uint32_t first, double size,
                   std::span<const PlainBox<Scalar>> boxes, std::size_t max_bytes, const Executor& executor) {
+    sort_by_cell(Raster(box, size), boxes, ids, executor);
     RawArray<Steps> steps(ids.size());
-    bool sorted = false;
     for (;;) {
         const Raster raster(box, size);
         // Beyond the range of a double no cells are larger.
         const bool largest = raster.cells() == std::array<int, 3>{1, 1, 1} || !(size < 0x1p1023);
-        if (!sorted) sort_by_cell(raster, boxes, ids, executor);
-        sorted = true;
         each_chunk(executor, steps.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) steps[i] = raster.steps(boxes[ids[i]].low, boxes[ids[i]].high);
         });
