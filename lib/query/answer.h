@@ -44,7 +44,7 @@ template <class Kernel, class Scalar>
                                                       QueryCounters& counters) {
     Search<Scalar> search(scene, path, options.sides);
     First<Scalar> first(scene, path, counters);
-    std::array<std::uint32_t, Shortlist::k_most + k_beyond_ids> ids;
+    Ids ids;
     Shortlist shortlist(ids.data());
     traverse<Kernel>(search, options, counters, first, &shortlist);
     if (!first.found()) return std::nullopt;

@@ -138,7 +138,7 @@ void fly(const Scene<Scalar>& scene, std::size_t count, const QueryOptions& opti
         group.cull_boxes(counters);
         for (std::size_t i = 0; i < group.size(); ++i) {
             Query<Scalar, Collector>& query = group[i];
-            std::array<std::uint32_t, Shortlist::k_most + k_beyond_ids> ids;
+            Ids ids;
             if (query.alone) {
                 query.shortlist = Shortlist(ids.data());
                 traverse<Kernel>(query.search, options, counters, query.collector, &query.shortlist);

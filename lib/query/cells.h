@@ -28,7 +28,7 @@ template <class Scalar>
 /// Cells of a walk that are asked for together: more use the lanes and the memory better, but go beyond the hit. Measured: tests/bench/run.
 constexpr unsigned k_most_walk = 2;
 
-/// Room for what a few cells leave.
+/// Room for what a few cells leave, and for a `Shortlist`.
 constexpr unsigned k_most_ids = Shortlist::k_most;
 using Ids = std::array<std::uint32_t, k_most_ids + k_beyond_ids>;
 
@@ -80,8 +80,7 @@ template <class Scalar, class Limit, class Use>
     }
 }
 
-/// Calls `use(ids, count, covered)` for the triangles whose boxes the path comes near; with `once`, no triangle
-/// twice.
+/// Calls `use(ids, count, covered)` for the triangles whose boxes the path comes near; with `once`, no triangle twice.
 template <class Scalar, class Limit, class Use>
 void visit_near(Search<Scalar>& search, bool once, Limit&& limit, QueryCounters& counters, Use&& use) {
     const Backend& backend = *search.scene.backend;

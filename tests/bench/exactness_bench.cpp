@@ -60,7 +60,7 @@ template <class Scalar>
 std::optional<Hit<Scalar>> unverified(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters) {
     Search<Scalar> search(scene, path, Sides::front);
     First<Scalar> first(scene, path, counters);
-    std::array<std::uint32_t, Shortlist::k_most + k_beyond_ids> ids;
+    Ids ids;
     Shortlist shortlist(ids.data());
     traverse<Certified>(search, {}, counters, first, &shortlist);
     if (!first.found()) return std::nullopt;

@@ -35,18 +35,24 @@ std::vector<std::uint64_t> answers(const TriangleSoup<Scalar>& soup, const std::
     return out;
 }
 
-// Mesh and segments are made at size 1 and scaled together.
+/// Segments of a mesh of size 1, scaled with it.
+template <class Scalar>
+std::vector<Segment<Scalar>> scaled_segments(const TriangleSoup<double>& unit, double scale, std::uint64_t seed, int count) {
+    const Extent<double> extent(unit.view());
+    Random random(seed);
+    std::vector<Segment<Scalar>> segments;
+    for (int i = 0; i < count; ++i) {
+        const Segment<double> s = mixed_segment(unit.view(), extent, random);
+        segments.push_back({(scale * s.from).cast<Scalar>(), (scale * s.to).cast<Scalar>()});
+    }
+    return segments;
+}
+
 template <class Scalar>
 void expect_same_everywhere(const char* what, const TriangleSoup<double>& unit, double scale) {
     SCOPED_TRACE(what);
     const TriangleSoup<Scalar> soup = moved<Scalar>(unit, scale, {0, 0, 0});
-    const Extent<double> extent(unit.view());
-    Random random(3);
-    std::vector<Segment<Scalar>> segments;
-    for (int i = 0; i < 600; ++i) {
-        const Segment<double> s = mixed_segment(unit.view(), extent, random);
-        segments.push_back({(scale * s.from).cast<Scalar>(), (scale * s.to).cast<Scalar>()});
-    }
+    const auto segments = scaled_segments<Scalar>(unit, scale, 3, 600);
     const auto standard = answers(soup, segments, FE_TONEAREST, false);
     EXPECT_GT(standard.size(), 3 * segments.size() + 1000);  // there are hits
     for_each_setting([&](int rounding, bool flush) {
@@ -74,13 +80,7 @@ void expect_same_builds(const char* what, double scale) {
     const TriangleSoup<double> unit = bumpy_sphere(70);
     ASSERT_GT(unit.triangles.size(), 32'768U);  // several parts
     const TriangleSoup<Scalar> soup = moved<Scalar>(unit, scale, {0, 0, 0});
-    const Extent<double> extent(unit.view());
-    Random random(4);
-    std::vector<Segment<Scalar>> segments;
-    for (int i = 0; i < 300; ++i) {
-        const Segment<double> s = mixed_segment(unit.view(), extent, random);
-        segments.push_back({(scale * s.from).cast<Scalar>(), (scale * s.to).cast<Scalar>()});
-    }
+    const auto segments = scaled_segments<Scalar>(unit, scale, 4, 300);
     const auto hits = [&](const CollisionMesh<Scalar>& mesh) {
         std::vector<std::uint64_t> out = {mesh.statistics().degenerate, mesh.statistics().grid_references};
         for (const Segment<Scalar>& s : segments) {
