@@ -47,7 +47,8 @@ struct Avx2 {
         return {_mm256_shuffle_ps(xy01, xy23, 0x44), _mm256_shuffle_ps(xy01, xy23, 0xee), _mm256_shuffle_ps(z01, z23, 0x44)};
     }
     static Lanes<Avx2> relative(const float* const* at, const float* origin, float scale) {
-        const Float o = _mm256_broadcast_ps(reinterpret_cast<const __m128*>(origin));
+        const __m128 once = _mm_setr_ps(origin[0], origin[1], origin[2], 0);
+        const Float o = _mm256_set_m128(once, once);
         const Float s = _mm256_set1_ps(scale);
         const auto row = [&](unsigned i) {
             return (_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at[i])), _mm_loadu_ps(at[i + 4]), 1) - o) * s;
@@ -55,7 +56,7 @@ struct Avx2 {
         return columns(row(0), row(1), row(2), row(3));
     }
     static Lanes<Avx2> relative(const double* const* at, const double* origin, float scale) {
-        const __m256d o = _mm256_loadu_pd(origin);
+        const __m256d o = _mm256_setr_pd(origin[0], origin[1], origin[2], 0);
         const __m256d s = _mm256_set1_pd(double{scale});
         const auto half = [&](unsigned i) { return _mm256_cvtpd_ps((_mm256_loadu_pd(at[i]) - o) * s); };
         const auto row = [&](unsigned i) { return _mm256_insertf128_ps(_mm256_castps128_ps256(half(i)), half(i + 4), 1); };
@@ -91,7 +92,7 @@ struct Avx2 {
 struct Four : Floats4<Four> {
     using Floats4<Four>::relative;
     static Lanes<Four> relative(const double* const* at, const double* origin, float scale) {
-        const __m256d o = _mm256_loadu_pd(origin);
+        const __m256d o = _mm256_setr_pd(origin[0], origin[1], origin[2], 0);
         const __m256d s = _mm256_set1_pd(double{scale});
         const auto row = [&](unsigned i) { return _mm256_cvtpd_ps((_mm256_loadu_pd(at[i]) - o) * s); };
         return columns(row(0), row(1), row(2), row(3));

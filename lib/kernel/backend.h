@@ -30,14 +30,14 @@ struct Probe {
 
 struct Backend {
     const char* name;
-    /// The cells of a short segment in a level, see block.h: how many it gave; -1 if they are too many. Reads four numbers of each point.
-    int (*block)(const PackedLevel& level, const double* half_from, const double* half_to, Stop* stops);
+    /// The cells of a short segment in a level, see block.h: how many it gave; -1 if they are too many.
+    int (*block)(const PackedLevel& level, const double* from, const double* to, Stop* stops);
     /// `block` and `cull` for all of its cells: the ids that are left, how many cells there were. -1: too many cells, or `room` may not
     /// do for what they leave. `out` has 8 more.
-    int (*look)(const PackedLevel& level, const double* half_from, const double* half_to, std::uint32_t* out, unsigned room,
+    int (*look)(const PackedLevel& level, const double* from, const double* to, std::uint32_t* out, unsigned room,
                 unsigned* cells);
     /// A walk through a level, see walk.h: `start_walk`, then `walk` until it gives fewer stops than there is room for.
-    Walking (*start_walk)(const PackedLevel& level, const double* half_from, const double* half_to, double limit, bool once, Walk& walk);
+    Walking (*start_walk)(const PackedLevel& level, const double* from, const double* to, double limit, bool once, Walk& walk);
     unsigned (*walk)(const PackedLevel& level, Walk& walk, double limit, Stop* stops, unsigned room);
     /// The ids of the boxes that `above` and `seen` leave (packed_box.h), in order; returns how many. Reads up to 7 boxes and ids
     /// beyond the last. `out` has room for `count` and 8 more.

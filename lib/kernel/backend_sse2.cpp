@@ -10,7 +10,7 @@ struct Sse2 : Floats4<Sse2> {
     static constexpr unsigned boxes = 2;
     using Floats4<Sse2>::relative;
     static Lanes<Sse2> relative(const double* const* at, const double* origin, float scale) {
-        const __m128d xy = _mm_loadu_pd(origin);
+        const __m128d xy = _mm_setr_pd(origin[0], origin[1]);
         const __m128d z = _mm_load_sd(origin + 2);
         const __m128d s = _mm_set1_pd(double{scale});
         const auto row = [&](unsigned i) {

@@ -52,6 +52,12 @@ struct Reach {
     Int4 last_step;
 };
 
+/// Where a segment has cells to look at. Most short ones that are not near anything end here.
+struct First {
+    const Node* brick;    ///< the only one, or null
+    std::uint64_t cells;  ///< of it
+};
+
 }  // namespace
 
 /// The brick of cells at a place given in bricks; null where there is none.
@@ -69,18 +75,24 @@ template <class Wide>
     return node->parts != 0 ? node : nullptr;
 }
 
-/// The stops in one brick, behind those that are there already; returns how many there are then, -1 if that is more than `k_most_block`.
-template <class Wide>
-[[gnu::always_inline]] inline int stops_in_brick(const Node& brick, const Int4& corner, const Reach& reach, Stop* stops, int found) {
+/// The cells of a brick that hold something and share a step with a segment's box.
+[[gnu::always_inline]] inline std::uint64_t cells_in_brick(const Node& brick, const Int4& corner, const Reach& reach) {
     const Int4 zero = {0, 0, 0, 0};
     const Int4 three = {3, 3, 3, 3};
-    const Int4 first = reach.first_step >> k_step_bits;
-    Int4 lowest = first - corner;
+    Int4 lowest = (reach.first_step >> k_step_bits) - corner;
     Int4 highest = (reach.last_step >> k_step_bits) - corner;
     lowest = lowest > zero ? lowest : zero;
     highest = highest < three ? highest : three;
     const Int4 places = lowest + (highest << 2);
-    std::uint64_t cells = brick.parts & k_places.x[places[0]] & k_places.y[places[1]] & k_places.z[places[2]];
+    return brick.parts & k_places.x[places[0]] & k_places.y[places[1]] & k_places.z[places[2]];
+}
+
+/// The stops in some cells of a brick, behind those that are there already; returns how many there are then, -1 if that is more than
+/// `k_most_block`.
+template <class Wide>
+[[gnu::always_inline]] inline int stops_in_brick(const Node& brick, const Int4& corner, std::uint64_t cells, const Reach& reach, Stop* stops,
+                                                 int found) {
+    const Int4 first = reach.first_step >> k_step_bits;
     if (found + static_cast<int>(Wide::count_bits(cells)) > k_most_block) return -1;
     for (; cells != 0; cells &= cells - 1) {
         const int place = __builtin_ctzll(cells);
@@ -103,23 +115,21 @@ template <class Wide>
     return found;
 }
 
-/// For the segment between two points, given by halves of their coordinates: how many cells hold something, and which boxes are to be left
-/// in them, each by one cell only. -1: more than `k_most_block`, or too far apart to be looked at.
+/// The steps of the segment between two points in a level; false if it is outside.
 template <class Wide>
-[[gnu::always_inline]] inline int block(const PackedLevel& level, const double* half_from, const double* half_to, Stop* stops) {
+[[gnu::always_inline]] inline bool reach_of(const PackedLevel& level, const double* start, const double* finish, Reach& reach) {
     Double4 low;
     Double4 scale;
     Double4 most;
-    Double4 from;
-    Double4 to;
     __builtin_memcpy(&low, level.half_low, sizeof low);
     __builtin_memcpy(&scale, level.scale, sizeof scale);
     __builtin_memcpy(&most, level.most, sizeof most);
-    __builtin_memcpy(&from, half_from, sizeof from);
-    __builtin_memcpy(&to, half_to, sizeof to);
-    // Raster::place, operation for operation, so that it is the same function for boxes and for queries.
-    from = (from - low) * scale;
-    to = (to - low) * scale;
+    // Number by number: they were mostly written that way a moment ago, and a load of all of them would wait for it.
+    Double4 from = {start[0], start[1], start[2], 0};
+    Double4 to = {finish[0], finish[1], finish[2], 0};
+    // Raster::place of halves, operation for operation, so that it is the same function for boxes and for queries.
+    from = (from * 0.5 - low) * scale;
+    to = (to * 0.5 - low) * scale;
     // What lies outside of the cells counts as on their border; before that as -1 or `most`, for the one look that says so.
     const Double4 before = {-1, -1, -1, -1};
     Double4 least = from;
@@ -133,22 +143,36 @@ template <class Wide>
     const Int4 one = {1, 1, 1, 1};
     const Int4 zero = {0, 0, 0, 0};
     const Int4 end = __builtin_convertvector(most, Int4) - one;
-    Reach reach;
     reach.first_step = __builtin_convertvector(least, Int4);
     reach.last_step = __builtin_convertvector(greatest, Int4);
-    if (Wide::negative(reach.last_step | (end - reach.first_step)) != 0) return 0;
+    if (Wide::negative(reach.last_step | (end - reach.first_step)) != 0) return false;
     reach.first_step = reach.first_step > zero ? reach.first_step : zero;
     reach.last_step = reach.last_step < end ? reach.last_step : end;
+    return true;
+}
+
+/// False if there are certainly none.
+template <class Wide>
+[[gnu::always_inline]] inline bool first_look(const PackedLevel& level, const Reach& reach, First& first) {
     const Int4 first_brick = reach.first_step >> (k_step_bits + 2);
+    const Int4 last_brick = reach.last_step >> (k_step_bits + 2);
+    first.brick = nullptr;
+    if (Wide::negative(first_brick - last_brick) != 0) return true;
+    first.brick = find_brick<Wide>(level, first_brick[0], first_brick[1], first_brick[2]);
+    if (first.brick == nullptr) return false;
+    first.cells = cells_in_brick(*first.brick, first_brick << 2, reach);
+    return first.cells != 0;
+}
+
+/// How many cells hold something, and which boxes are to be left in them, each by one cell only. -1: more than `k_most_block`, or too far
+/// apart to be looked at.
+template <class Wide>
+[[gnu::always_inline]] inline int stops_of(const PackedLevel& level, const Reach& reach, const First& look, Stop* stops) {
+    const Int4 first_brick = reach.first_step >> (k_step_bits + 2);
+    if (look.brick != nullptr) return stops_in_brick<Wide>(*look.brick, first_brick << 2, look.cells, reach, stops, 0);
+    const Int4 one = {1, 1, 1, 1};
+    const Int4 zero = {0, 0, 0, 0};
     const Int4 more = (reach.last_step >> (k_step_bits + 2)) - first_brick;
-    const int x = first_brick[0];
-    const int y = first_brick[1];
-    const int z = first_brick[2];
-    if (Wide::negative(zero - more) == 0) {  // nearly always
-        const Node* brick = find_brick<Wide>(level, x, y, z);
-        if (brick == nullptr) return 0;
-        return stops_in_brick<Wide>(*brick, first_brick << 2, reach, stops, 0);
-    }
     if (Wide::negative(one - more) != 0) return -1;
     // Bit k of a brick: the second one along axis k. Of two bricks or four, and not of eight with branches for those there are not.
     const unsigned most_bits = Wide::negative(zero - more);
@@ -157,7 +181,8 @@ template <class Wide>
         const Int4 brick_at = first_brick + Int4{static_cast<int>(bits & 1), static_cast<int>(bits >> 1 & 1), static_cast<int>(bits >> 2), 0};
         const Node* brick = find_brick<Wide>(level, brick_at[0], brick_at[1], brick_at[2]);
         if (brick != nullptr) {
-            found = stops_in_brick<Wide>(*brick, brick_at << 2, reach, stops, found);
+            const Int4 corner = brick_at << 2;
+            found = stops_in_brick<Wide>(*brick, corner, cells_in_brick(*brick, corner, reach), reach, stops, found);
             if (found < 0) return -1;
         }
         if (bits == most_bits) break;
@@ -165,14 +190,21 @@ template <class Wide>
     return found;
 }
 
-/// All of `block` and `cull` in one call: the ids that the cells leave, and how many cells they are. -1: too many cells, or what they
-/// list is more than `room`.
+/// The cells of the segment between two points, as `stops_of`.
 template <class Wide>
-[[gnu::always_inline]] inline int look(const PackedLevel& level, const double* half_from, const double* half_to, std::uint32_t* out,
-                                       unsigned room, unsigned* cells) {
+[[gnu::always_inline]] inline int block(const PackedLevel& level, const double* from, const double* to, Stop* stops) {
+    Reach reach;
+    First first;
+    if (!reach_of<Wide>(level, from, to, reach) || !first_look<Wide>(level, reach, first)) return 0;
+    return stops_of<Wide>(level, reach, first, stops);
+}
+
+// Not inlined: a look that ends before it then has no room to make for it.
+template <class Wide>
+[[gnu::noinline]] int look_closer(const PackedLevel& level, const Reach& reach, const First& first, std::uint32_t* out, unsigned room,
+                                  unsigned* cells) {
     Stop stops[k_most_block];
-    const int found = block<Wide>(level, half_from, half_to, stops);
-    *cells = 0;
+    const int found = stops_of<Wide>(level, reach, first, stops);
     if (found <= 0) return found;
     // First what all of them read: the branches of the culling would let the memory wait.
     std::uint32_t begin[k_most_block];
@@ -191,6 +223,18 @@ template <class Wide>
     }
     *cells = static_cast<unsigned>(found);
     return static_cast<int>(left);
+}
+
+/// All of `block` and `cull` in one call: the ids that the cells leave, and how many cells they are. -1: too many cells, or what they
+/// list is more than `room`.
+template <class Wide>
+[[gnu::always_inline]] inline int look(const PackedLevel& level, const double* from, const double* to, std::uint32_t* out,
+                                       unsigned room, unsigned* cells) {
+    Reach reach;
+    First first;
+    *cells = 0;
+    if (!reach_of<Wide>(level, from, to, reach) || !first_look<Wide>(level, reach, first)) return 0;
+    return look_closer<Wide>(level, reach, first, out, room, cells);
 }
 
 }  // namespace pierce::detail

@@ -31,7 +31,7 @@ struct Floats4 {
         return {_mm_movelh_ps(xy01, xy23), _mm_movehl_ps(xy23, xy01), _mm_movelh_ps(z01, z23)};
     }
     static Lanes<Self> relative(const float* const* at, const float* origin, float scale) {
-        const Float o = _mm_loadu_ps(origin);
+        const Float o = _mm_setr_ps(origin[0], origin[1], origin[2], 0);
         const Float s = _mm_set1_ps(scale);
         const auto row = [&](unsigned i) { return (_mm_loadu_ps(at[i]) - o) * s; };
         return columns(row(0), row(1), row(2), row(3));

@@ -11,15 +11,15 @@ namespace pierce::detail {
 /// `Wide` for boxes, `Many` for triangles; `Few` for up to its own width of these: fewer loads for the usual few.
 template <class Wide, class Many = Wide, class Few = Many>
 struct Kernels {
-    static int block(const PackedLevel& level, const double* half_from, const double* half_to, Stop* stops) {
-        return detail::block<Wide>(level, half_from, half_to, stops);
+    static int block(const PackedLevel& level, const double* from, const double* to, Stop* stops) {
+        return detail::block<Wide>(level, from, to, stops);
     }
-    static int look(const PackedLevel& level, const double* half_from, const double* half_to, std::uint32_t* out, unsigned room,
+    static int look(const PackedLevel& level, const double* from, const double* to, std::uint32_t* out, unsigned room,
                     unsigned* cells) {
-        return detail::look<Wide>(level, half_from, half_to, out, room, cells);
+        return detail::look<Wide>(level, from, to, out, room, cells);
     }
-    static Walking start_walk(const PackedLevel& level, const double* half_from, const double* half_to, double limit, bool once, Walk& walk) {
-        return detail::start_walk<Wide>(level, half_from, half_to, limit, once, walk);
+    static Walking start_walk(const PackedLevel& level, const double* from, const double* to, double limit, bool once, Walk& walk) {
+        return detail::start_walk<Wide>(level, from, to, limit, once, walk);
     }
     static unsigned walk(const PackedLevel& level, Walk& walk, double limit, Stop* stops, unsigned room) {
         return walk_on<Wide>(level, walk, limit, stops, room);

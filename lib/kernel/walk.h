@@ -49,16 +49,16 @@ constexpr double k_flat = 0x1p-20;  ///< an axis along which a line goes less co
 
 }  // namespace
 
-/// Starts the walk of the segment between two points, given by halves of their coordinates.
+/// Starts the walk of the segment between two points.
 template <class Wide>
-[[gnu::always_inline]] inline Walking start_walk(const PackedLevel& level, const double* half_from, const double* half_to, double limit,
+[[gnu::always_inline]] inline Walking start_walk(const PackedLevel& level, const double* start, const double* finish, double limit,
                                                  bool once, Walk& walk) {
     double first = 0;
     double last = 1;
     double most = 0;
     for (int k = 0; k < 3; ++k) {
-        const double from = (half_from[k] - level.half_low[k]) * level.scale[k] * (1.0 / k_steps);
-        const double to = (half_to[k] - level.half_low[k]) * level.scale[k] * (1.0 / k_steps);
+        const double from = (0.5 * start[k] - level.half_low[k]) * level.scale[k] * (1.0 / k_steps);
+        const double to = (0.5 * finish[k] - level.half_low[k]) * level.scale[k] * (1.0 / k_steps);
         const double d = to - from;
         most = larger(most, larger(from < 0 ? -from : from, to < 0 ? -to : to));
         walk.from[k] = from;

@@ -9,21 +9,24 @@
 
 namespace pierce::detail {
 
-/// The hit of a candidate. `passed(triangle)` says which triangles are hit strictly before it, and so on the way to any point near
-/// it. With a complete `shortlist` of the query's triangles the grid is not asked again.
+/// Writes the hit of a candidate, to where the caller wants it: a copy of what was just written number by number would wait for memory.
+/// `passed(triangle)` says which triangles are hit strictly before it, and so on the way to any point near it. With a complete
+/// `shortlist` of the query's triangles the grid is not asked again.
 template <class Kernel, class Scalar, class Passed>
-[[nodiscard]] Hit<Scalar> answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Passed& passed,
-                                 const QueryOptions& options, QueryCounters& counters, Shortlist* shortlist = nullptr) {
+void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Passed& passed, const QueryOptions& options,
+            QueryCounters& counters, Shortlist* shortlist, Hit<Scalar>& hit) {
     const std::uint32_t triangle = candidate.triangle;
-    typename Kernel::template Face<Scalar> face(scene.corners(triangle), counters);
+    const Corners corners = scene.corners(triangle);
+    typename Kernel::template Face<Scalar> face(corners, counters);
     const Point normal = face.normal();
-    Hit<Scalar> hit = report<Scalar>(face.measures(path, candidate.decision), normal, candidate.decision, scene.face_of(triangle),
-                                     scene.triangle_numbers[triangle]);
+    report(face.measures(path, candidate.decision), normal, candidate.decision, scene.face_of(triangle), scene.triangle_numbers[triangle],
+           hit);
     QueryOptions whole = options;
     whole.max_fraction = 1;  // a nearer limit was meant for the caller's own segment
     const auto side = [&](const Point& point) { return face.side(point); };
     const auto clear = [&](const Point& point) {
-        Search<Scalar> search(scene, {path.from, point}, options.sides);
+        const Path way{path.from, point};
+        Search<Scalar> search(scene, way, options.sides);
         Any any(passed, triangle);  // verify() has seen to the hit's own triangle
         if (shortlist != nullptr && shortlist->complete) {
             test_triangles<Kernel>(search, shortlist->ids, shortlist->count, whole, counters, any);
@@ -34,7 +37,6 @@ template <class Kernel, class Scalar, class Passed>
     };
     const int tries = verify(hit, path, normal, side, clear);
     counters.retreats += static_cast<std::uint64_t>(tries);
-    return hit;
 }
 
 [[nodiscard]] inline bool none_passed(std::uint32_t) { return false; }
@@ -42,13 +44,16 @@ template <class Kernel, class Scalar, class Passed>
 template <class Kernel, class Scalar>
 [[nodiscard]] std::optional<Hit<Scalar>> first_answer(const Scene<Scalar>& scene, const Path& path, const QueryOptions& options,
                                                       QueryCounters& counters) {
+    std::optional<Hit<Scalar>> hit;
+    Ids ids;
+    Shortlist list(ids.data());
+    const Near near = look_near(scene, path, 0, list, counters);
+    if (near.count == 0) return hit;
     Search<Scalar> search(scene, path, options.sides);
     First<Scalar> first(scene, path, counters);
-    Ids ids;
-    Shortlist shortlist(ids.data());
-    traverse<Kernel>(search, options, counters, first, &shortlist);
-    if (!first.found()) return std::nullopt;
-    return answer<Kernel>(scene, path, first.best(), none_passed, options, counters, &shortlist);
+    traverse<Kernel>(search, near, list, options, counters, first);
+    if (first.found()) answer<Kernel>(scene, path, first.best(), none_passed, options, counters, &list, hit.emplace());
+    return hit;
 }
 
 }  // namespace pierce::detail

@@ -17,15 +17,16 @@ constexpr std::size_t k_group = 16;
 template <class Scalar, class Collector>
 struct Query {
     std::size_t number;
+    const Path path;
     Search<Scalar> search;
     Collector collector;
-    Shortlist shortlist;
+    Shortlist shortlist{nullptr};
     std::uint32_t listed = 0;  ///< by its cells
     bool alone = false;        ///< not short, or with too many cells: asked singly
 
     template <class Make>
-    Query(const Scene<Scalar>& scene, std::size_t number_, const Path& path, Sides sides, Make&& make)
-        : number(number_), search(scene, path, sides), collector(make(search.path)) {}
+    Query(const Scene<Scalar>& scene, std::size_t number_, const Path& path_, Sides sides, Make&& make)
+        : number(number_), path(path_), search(scene, path, sides), collector(make(path)) {}
     Query(const Query&) = delete;
     Query& operator=(const Query&) = delete;
 };
@@ -49,11 +50,11 @@ class Group {
         cell_count_ = 0;
         for (std::uint32_t i = 0; i < size_; ++i) {
             Query<Scalar, Collector>& query = *queries_[i];
-            const Halves half(query.search.path);
+            const Path& path = query.path;
             const std::size_t before = cell_count_;
             for (const Level& level : scene_.grid.levels()) {
                 std::array<Stop, k_most_block> stops;
-                const int found = scene_.backend->block(level.packed(), half.from.data(), half.to.data(), stops.data());
+                const int found = scene_.backend->block(level.packed(), path.from.data(), path.to.data(), stops.data());
                 if (found < 0 || cell_count_ - before + static_cast<std::size_t>(found) > k_most_cells) {
                     query.alone = true;
                     cell_count_ = before;
@@ -75,7 +76,7 @@ class Group {
         for (std::size_t c = 0; c < cell_count_;) {
             const std::uint32_t number = cells_[c].query;
             Query<Scalar, Collector>& query = *queries_[number];
-            query.alone = query.listed > k_most_ids;
+            query.alone = query.listed > Shortlist::k_room;
             query.shortlist = Shortlist(out);
             for (; c < cell_count_ && cells_[c].query == number; ++c) {
                 if (query.alone) continue;
@@ -119,7 +120,7 @@ class Group {
     std::size_t cell_count_ = 0;
     std::array<std::optional<Query<Scalar, Collector>>, k_group> queries_;
     std::array<CellOfQuery, k_most_cells * k_group> cells_;
-    std::array<std::uint32_t, k_group * (k_most_ids + k_beyond_ids)> ids_;
+    std::array<std::uint32_t, k_group * (Shortlist::k_room + k_beyond_ids)> ids_;
 };
 
 /// Takes all queries through the rooms. `start(i, path)` gives the path of query i, or says that it has no meaning and is not to be asked;
@@ -141,7 +142,7 @@ void fly(const Scene<Scalar>& scene, std::size_t count, const QueryOptions& opti
             Ids ids;
             if (query.alone) {
                 query.shortlist = Shortlist(ids.data());
-                traverse<Kernel>(query.search, options, counters, query.collector, &query.shortlist);
+                traverse<Kernel>(query.search, query.shortlist, options, counters, query.collector);
             } else if (query.shortlist.count > 0) {
                 test_triangles<Kernel>(query.search, query.shortlist.ids, query.shortlist.count, options, counters, query.collector);
             }

@@ -36,10 +36,10 @@ std::size_t first_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std
             to.reset();
             if (query == nullptr || !query->collector.found()) return;
             ++hits;
-            const Hit<Scalar> hit = answer<Certified>(scene, query->search.path, query->collector.best(), none_passed, options,
-                                                      counters, &query->shortlist);
-            if constexpr (std::is_same_v<Answer, Hit<Scalar>>) to = hit;
-            else to = Answer{hit, hit.fraction};
+            Answer& hit = to.emplace();
+            answer<Certified, Scalar>(scene, query->path, query->collector.best(), none_passed, options, counters,
+                                      &query->shortlist, hit);
+            if constexpr (std::is_same_v<Answer, SweepHit<Scalar>>) hit.time_of_impact = hit.fraction;
         });
     return hits;
 }

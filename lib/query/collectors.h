@@ -19,21 +19,23 @@ class First {
     First(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters)
         : scene_(scene), path_(path), counters_(counters) {}
 
-    [[nodiscard]] double limit() const { return best_.latest; }
+    [[nodiscard]] double limit() const { return best().latest; }
     [[nodiscard]] bool wants(std::uint32_t) const { return true; }
-    void add(const Candidate& candidate) {
-        if (found_ && !comes_before(scene_, path_, candidate, best_, counters_)) return;
-        best_ = candidate;
+    [[nodiscard]] Candidate& room() { return candidates_[1 - best_]; }
+    void add() {
+        if (found_ && !comes_before(scene_, path_, room(), best(), counters_)) return;
+        best_ = 1 - best_;
         found_ = true;
     }
     [[nodiscard]] bool found() const { return found_; }
-    [[nodiscard]] const Candidate& best() const { return best_; }
+    [[nodiscard]] const Candidate& best() const { return candidates_[best_]; }
 
   private:
     const Scene<Scalar>& scene_;
     const Path& path_;
     QueryCounters& counters_;
-    Candidate best_;
+    std::array<Candidate, 2> candidates_;
+    std::size_t best_ = 0;
     bool found_ = false;
 };
 
@@ -48,12 +50,14 @@ class Any {
 
     [[nodiscard]] double limit() const { return found_ ? -1 : 1; }
     [[nodiscard]] bool wants(std::uint32_t triangle) const { return !found_ && triangle != own_; }
-    void add(const Candidate& candidate) { found_ = !passed_(candidate.triangle); }
+    [[nodiscard]] Candidate& room() { return candidate_; }
+    void add() { found_ = !passed_(candidate_.triangle); }
     [[nodiscard]] bool found() const { return found_; }
 
   private:
     Passed passed_;
     std::uint32_t own_;
+    Candidate candidate_;
     bool found_ = false;
 };
 
@@ -69,7 +73,9 @@ class All {
 
     [[nodiscard]] double limit() const { return 1; }
     [[nodiscard]] bool wants(std::uint32_t) const { return true; }
-    void add(const Candidate& candidate) {
+    [[nodiscard]] Candidate& room() { return candidate_; }
+    void add() {
+        const Candidate& candidate = candidate_;
         ++total_;
         // Insertion from the end: hits come roughly in order.
         std::size_t place = kept_;
@@ -109,6 +115,7 @@ class All {
     const Path& path_;
     std::span<Hit<Scalar>> out_;
     QueryCounters& counters_;
+    Candidate candidate_;
     std::size_t total_ = 0;
     std::size_t kept_ = 0;
 };

@@ -17,9 +17,14 @@ std::optional<Hit<Scalar>> first_hit(const Scene<Scalar>& scene, const Segment<S
 template <class Scalar>
 bool any_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
              QueryCounters& counters) {
-    Search<Scalar> search(scene, to_path(segment), options.sides);
+    const Path path = to_path(segment);
+    Ids ids;
+    Shortlist list(ids.data());
+    const Near near = look_near(scene, path, 0, list, counters);
+    if (near.count == 0) return false;
+    Search<Scalar> search(scene, path, options.sides);
     Any any(none_passed);
-    traverse<Certified>(search, options, counters, any);
+    traverse<Certified>(search, near, list, options, counters, any);
     return any.found();
 }
 
@@ -42,7 +47,7 @@ std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
             return other.earliest <= candidate.latest &&
                    compare_fractions(path, scene.corners(triangle), scene.corners(candidate.triangle)) < 0;
         };
-        out[i] = answer<Certified>(scene, path, candidate, passed, options, counters);
+        answer<Certified>(scene, path, candidate, passed, options, counters, nullptr, out[i]);
     }
     return all.total();
 }
@@ -54,7 +59,10 @@ int crossings_of(const Scene<Scalar>& scene, const Path& path, QueryCounters& co
     int sum = 0;
     Search<Scalar> search(scene, path, Sides::both);
     // The move is infinitesimal: a path that does not even touch a closed triangle does not cross it when moved either.
-    visit_near(search, true, [] { return 1.0; }, counters, [&](std::uint32_t* ids, unsigned count, bool) {
+    Ids room;
+    Shortlist list(room.data());
+    const Near near = look_near(scene, path, 0, list, counters);
+    visit_near(search, near, true, list, [] { return 1.0; }, counters, [&](std::uint32_t* ids, unsigned count) {
         Ids left;
         const unsigned found = scene.backend->refine(search.probe(Certified::unit), scene.coordinates.data(), ids, count, left.data());
         counters.triangles += count;

@@ -11,12 +11,11 @@
 
 namespace pierce::detail {
 
-/// Everything but `fraction` and `point`, from what is certified (values.h).
+/// Writes everything but `fraction` and `point`, from what is certified (values.h).
 template <class Scalar>
-[[nodiscard]] Hit<Scalar> report(const Measures& measures, const Point& normal, const Decision& decision, std::uint32_t face,
-                                 std::uint32_t triangle) {
+void report(const Measures& measures, const Point& normal, const Decision& decision, std::uint32_t face, std::uint32_t triangle,
+            Hit<Scalar>& hit) {
     const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-    Hit<Scalar> hit{};
     for (int k = 0; k < 3; ++k) {
         const auto at = static_cast<std::size_t>(k);
         hit.normal[k] = static_cast<Scalar>(normal[at] / length);
@@ -29,7 +28,6 @@ template <class Scalar>
     hit.feature = decision.feature;
     hit.feature_index = decision.feature_index;
     hit.at_start = decision.at_start;
-    return hit;
 }
 
 template <class Scalar>

@@ -15,32 +15,39 @@ constexpr unsigned k_beyond_ids = 8;
 /// What the culling left of the cells that a query visited: all triangles that could stop a point on its way to the hit, if
 /// `complete`. So the verified point needs no second way through the grid.
 struct Shortlist {
-    static constexpr unsigned k_most = 256;
+    static constexpr unsigned k_room = 256;
+    /// With room for this many ids.
+    static constexpr unsigned k_most = 2 * k_room + k_beyond_ids;
 
-    Shortlist() = default;
-    /// With room for `k_most` ids and `k_beyond_ids` more.
     explicit Shortlist(std::uint32_t* room) : ids(room) {}
 
-    /// `covered`: the cells were asked for all that comes near a point of the path, rounded.
-    void add(const std::uint32_t* some, unsigned number, bool covered) {
-        complete = complete && covered && count + number <= k_most;
-        if (!complete) return;
-        std::copy_n(some, number, ids + count);
-        count += number;
+    /// For the next `k_room` ids, and for what kernels write beyond them.
+    [[nodiscard]] std::uint32_t* room() {
+        if (count > k_room) {
+            count = 0;
+            complete = false;
+        }
+        return ids + count;
     }
+    /// That many have been written.
+    void take(unsigned some) { count += some; }
 
     std::uint32_t* ids = nullptr;
     unsigned count = 0;
     bool complete = true;
 };
+/// In whole cache lines, as the first few ids are written many at a time and read one by one at once.
+struct alignas(64) Ids : std::array<std::uint32_t, Shortlist::k_most> {};
 
 template <class Scalar>
 class Search {
   public:
+    /// `path_` must live as long. (A copy of what was just written would wait for memory.)
     Search(const Scene<Scalar>& scene_, const Path& path_, Sides sides) : scene(scene_), path(path_), sides_(sides) {}
+    Search(const Scene<Scalar>&, Path&&, Sides) = delete;
 
     const Scene<Scalar>& scene;
-    const Path path;
+    const Path& path;
 
     /// What the wide kernels ask with, in bounds of this unit. Made when it is first asked for: most short segments never come near a
     /// triangle.

@@ -57,8 +57,9 @@ struct Certified {
 };
 
 /// Asks the kernels about a list of triangles and gives the collector those that the path hits under `options`.
+/// (Not inlined: most short segments come near no triangle.)
 template <class Kernel, class Scalar, class Collector>
-void test_triangles(Search<Scalar>& search, std::uint32_t* ids, unsigned count, const QueryOptions& options,
+[[gnu::noinline]] void test_triangles(Search<Scalar>& search, std::uint32_t* ids, unsigned count, const QueryOptions& options,
                     QueryCounters& counters, Collector& collector) {
     const Scene<Scalar>& scene = search.scene;
     const Probe<Scalar>& probe = search.probe(Kernel::unit);
@@ -73,7 +74,7 @@ void test_triangles(Search<Scalar>& search, std::uint32_t* ids, unsigned count, 
         for (unsigned i = 0; i < found; ++i) {
             const std::uint32_t triangle = left[i];
             if (!collector.wants(triangle) || masked(scene, triangle, options)) continue;
-            Candidate candidate;
+            Candidate& candidate = collector.room();
             const double limit = std::min(collector.limit(), options.max_fraction);
             const Corners corners = scene.corners(triangle);
             if (!Kernel::test(corners, triangle, search.path, options.sides, limit, counters, candidate)) continue;
@@ -82,7 +83,7 @@ void test_triangles(Search<Scalar>& search, std::uint32_t* ids, unsigned count, 
                 if (!fraction_at_most(search.path, corners, options.max_fraction)) continue;
             }
             if (options.accept && !accepted(scene, search.path, candidate, options, counters)) continue;
-            collector.add(candidate);
+            collector.add();
         }
     }
 }
@@ -91,16 +92,26 @@ void test_triangles(Search<Scalar>& search, std::uint32_t* ids, unsigned count, 
 ///   bool once                     whether a hit must not come twice
 ///   double limit()                hits beyond this fraction are of no use; negative: none is any more
 ///   bool wants(triangle)          whether to look at it at all
-///   void add(candidate)           a hit that counts
+///   Candidate& room()             where the next hit is to be written (a copy of what was just written would wait for memory)
+///   void add()                    the hit that was written there counts
 /// `options.max_fraction` must not be NaN.
 template <class Kernel, class Scalar, class Collector>
-void traverse(Search<Scalar>& search, const QueryOptions& options, QueryCounters& counters, Collector& collector,
-              Shortlist* shortlist = nullptr) {
+void traverse(Search<Scalar>& search, Near near, Shortlist& list, const QueryOptions& options, QueryCounters& counters,
+              Collector& collector) {
     const auto limit = [&] { return std::min(collector.limit(), options.max_fraction); };
-    visit_near(search, Collector::once, limit, counters, [&](std::uint32_t* ids, unsigned count, bool covered) {
-        if (shortlist != nullptr) shortlist->add(ids, count, covered);
+    visit_near(search, near, Collector::once, list, limit, counters, [&](std::uint32_t* ids, unsigned count) {
         test_triangles<Kernel>(search, ids, count, options, counters, collector);
     });
+}
+template <class Kernel, class Scalar, class Collector>
+void traverse(Search<Scalar>& search, Shortlist& list, const QueryOptions& options, QueryCounters& counters, Collector& collector) {
+    traverse<Kernel>(search, look_near(search.scene, search.path, 0, list, counters), list, options, counters, collector);
+}
+template <class Kernel, class Scalar, class Collector>
+void traverse(Search<Scalar>& search, const QueryOptions& options, QueryCounters& counters, Collector& collector) {
+    Ids ids;
+    Shortlist list(ids.data());
+    traverse<Kernel>(search, list, options, counters, collector);
 }
 
 }  // namespace pierce::detail

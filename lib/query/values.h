@@ -25,6 +25,7 @@ template <class Number>
 template <class Scalar>
 class CertifiedFace {
   public:
+    /// `corners` must live as long.
     CertifiedFace(const Corners& corners, QueryCounters& counters) : corners_(corners), counters_(counters), plane_(corners_) {}
     CertifiedFace(const CertifiedFace&) = delete;
     CertifiedFace& operator=(const CertifiedFace&) = delete;
@@ -74,7 +75,7 @@ class CertifiedFace {
         return *finer_;
     }
 
-    const Corners corners_;
+    const Corners& corners_;
     QueryCounters& counters_;
     const Plane<std::conditional_t<k_coarse, double, DoubleDouble>> plane_;
     std::optional<Plane<DoubleDouble>> finer_;  ///< for float, where it is needed

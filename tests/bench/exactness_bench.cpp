@@ -62,13 +62,16 @@ std::optional<Hit<Scalar>> unverified(const Scene<Scalar>& scene, const Path& pa
     First<Scalar> first(scene, path, counters);
     Ids ids;
     Shortlist shortlist(ids.data());
-    traverse<Certified>(search, {}, counters, first, &shortlist);
+    traverse<Certified>(search, shortlist, {}, counters, first);
     if (!first.found()) return std::nullopt;
     const Candidate& best = first.best();
-    CertifiedFace<Scalar> face(scene.corners(best.triangle), counters);
+    const Corners corners = scene.corners(best.triangle);
+    CertifiedFace<Scalar> face(corners, counters);
     const Point normal = face.normal();
-    return report<Scalar>(face.measures(path, best.decision), normal, best.decision, scene.face_of(best.triangle),
-                          scene.triangle_numbers[best.triangle]);
+    std::optional<Hit<Scalar>> hit;
+    report(face.measures(path, best.decision), normal, best.decision, scene.face_of(best.triangle), scene.triangle_numbers[best.triangle],
+           hit.emplace());
+    return hit;
 }
 
 // Of this thread alone: what others do on the machine meanwhile is not to be counted.

@@ -40,17 +40,6 @@ Grid grid_of(const Boxes& boxes, double cell, std::size_t most = std::size_t{1} 
     return Grid(std::span<const PlainBox<double>>(boxes), {cell, most}, {});
 }
 
-struct Halves {
-    explicit Halves(const Path& path) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            from[k] = 0.5 * path.from[k];
-            to[k] = 0.5 * path.to[k];
-        }
-    }
-    std::array<double, 4> from{};
-    std::array<double, 4> to{};
-};
-
 // What a compare of packed boxes leaves, in plain words: the kernels do it with one instruction.
 bool leaves(const Cull& cull, PackedBox box) {
     if ((box & cull.seen) != 0) return false;
@@ -64,7 +53,6 @@ enum class Way { block, walk, walk_once };
 /// How often each box is found near the path.
 template <class Visited>
 void find(const Backend& backend, const Grid& grid, const Path& path, Way way, double limit, bool& wide, Visited&& visited) {
-    const Halves half(path);
     for (const Level& level : grid.levels()) {
         const auto visit = [&](const Stop& stop) {
             const Range range = level.range(stop.number);
@@ -73,18 +61,18 @@ void find(const Backend& backend, const Grid& grid, const Path& path, Way way, d
         };
         if (way == Way::block) {
             std::array<Stop, k_most_block> stops;
-            const int found = backend.block(level.packed(), half.from.data(), half.to.data(), stops.data());
+            const int found = backend.block(level.packed(), path.from.data(), path.to.data(), stops.data());
             wide = wide || found < 0;
             for (int i = 0; i < found; ++i) visit(stops[static_cast<std::size_t>(i)]);
         } else {
             Walk walk;
             const Walking walking =
-                backend.start_walk(level.packed(), half.from.data(), half.to.data(), limit, way == Way::walk_once, walk);
+                backend.start_walk(level.packed(), path.from.data(), path.to.data(), limit, way == Way::walk_once, walk);
             if (walking == Walking::no) continue;
             if (walking == Walking::never) {  // every triangle is to be asked: allowed for an end beyond 2^34 cells only
                 double furthest = 0;
                 for (std::size_t k = 0; k < 3; ++k)
-                    for (const double x : {half.from[k], half.to[k]})
+                    for (const double x : {0.5 * path.from[k], 0.5 * path.to[k]})
                         furthest = std::max(furthest, std::abs(level.raster().place(k, x)) / k_steps);
                 ASSERT_GE(furthest, 0x1p34);
                 wide = true;
@@ -243,9 +231,8 @@ TEST(Walk, visits_few_cells) {
         unsigned count = 0;
         const Backend& backend = choose_backend({});
         const PackedLevel& level = grid.levels()[0].packed();
-        const Halves half(path);
-        Walk walk;
-        if (backend.start_walk(level, half.from.data(), half.to.data(), 1, false, walk) != Walking::along) return count;
+            Walk walk;
+        if (backend.start_walk(level, path.from.data(), path.to.data(), 1, false, walk) != Walking::along) return count;
         for (Stop stop; backend.walk(level, walk, 1, &stop, 1) == 1;) ++count;
         return count;
     };

@@ -108,8 +108,8 @@ class NaiveMesh {
         QueryCounters unused;
         detail::CertifiedFace<Scalar> face(corners_[triangle], unused);
         const detail::Point normal = face.normal();
-        Hit<Scalar> hit = detail::report<Scalar>(face.measures(path, found[i].decision), normal, found[i].decision, faces_[triangle],
-                                                 triangle);
+        Hit<Scalar> hit{};
+        detail::report(face.measures(path, found[i].decision), normal, found[i].decision, faces_[triangle], triangle, hit);
         QueryOptions whole = options;
         whole.max_fraction = 1;
         const auto clear = [&](const detail::Point& point) {
