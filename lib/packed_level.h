@@ -45,8 +45,18 @@ struct PackedLevel {
 /// Where a query has come to: a cell that holds something, and which boxes it is to leave there.
 struct Stop {
     std::uint32_t number;  ///< of the cell, see Level::range
+    std::uint32_t query;   ///< of many: whose it is
     Cull cull;
     double fraction;       ///< of a walk: at which it enters the cell
+};
+
+/// What is to be culled of a cell.
+struct Boxes {
+    const PackedBox* boxes;
+    const std::uint32_t* ids;
+    std::uint32_t count;
+    std::uint32_t query;  ///< of many: whose it is
+    Cull cull;
 };
 
 /// A segment on its way through a level (kernel/walk.h), all in cells. The arrays have a fourth entry for the lanes.
@@ -71,5 +81,12 @@ enum class Walking : std::uint8_t { no, along, never };
 
 /// A short segment's cells are asked for together, if they are not more than this. Measured: tests/bench/run.
 constexpr int k_most_block = 8;
+
+/// Segments that are looked at together: enough to cover the latency of main memory. Measured: tests/bench/run.
+constexpr unsigned k_group = 16;
+
+/// What a look at one of many segments says: that it has cells or not; that it must be asked singly, having too many; that it has no
+/// meaning, as a coordinate is not finite.
+enum class Look : std::uint8_t { seen, alone, invalid };
 
 }  // namespace pierce::detail

@@ -46,23 +46,40 @@ struct Avx2 {
         const Float z23 = _mm256_unpackhi_ps(r2, r3);
         return {_mm256_shuffle_ps(xy01, xy23, 0x44), _mm256_shuffle_ps(xy01, xy23, 0xee), _mm256_shuffle_ps(z01, z23, 0x44)};
     }
-    static Lanes<Avx2> relative(const float* const* at, const float* origin, float scale) {
-        const __m128 once = _mm_setr_ps(origin[0], origin[1], origin[2], 0);
-        const Float o = _mm256_set_m128(once, once);
-        const Float s = _mm256_set1_ps(scale);
-        const auto row = [&](unsigned i) {
-            return (_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at[i])), _mm_loadu_ps(at[i + 4]), 1) - o) * s;
-        };
-        return columns(row(0), row(1), row(2), row(3));
-    }
-    static Lanes<Avx2> relative(const double* const* at, const double* origin, float scale) {
-        const __m256d o = _mm256_setr_pd(origin[0], origin[1], origin[2], 0);
-        const __m256d s = _mm256_set1_pd(double{scale});
-        const auto half = [&](unsigned i) { return _mm256_cvtpd_ps((_mm256_loadu_pd(at[i]) - o) * s); };
-        const auto row = [&](unsigned i) { return _mm256_insertf128_ps(_mm256_castps128_ps256(half(i)), half(i + 4), 1); };
-        return columns(row(0), row(1), row(2), row(3));
+    static Float directions(const float* const* at, Lanes<Avx2>& d) {
+        const Float r0 = row(at, 0);
+        const Float r1 = row(at, 1);
+        const Float r2 = row(at, 2);
+        const Float r3 = row(at, 3);
+        d = columns(r0, r1, r2, r3);
+        return _mm256_shuffle_ps(_mm256_unpackhi_ps(r0, r1), _mm256_unpackhi_ps(r2, r3), 0xee);
     }
 
+    static constexpr unsigned rows = 4;
+    static Float same_row(const float* x) {
+        const __m128 once = _mm_setr_ps(x[0], x[1], x[2], 0);
+        return _mm256_set_m128(once, once);
+    }
+    static Float row(const float* const* at, unsigned i) {
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at[i])), _mm_loadu_ps(at[i + 4]), 1);
+    }
+    static Float scaled(Float x, Float origin, float scale) { return (x - origin) * _mm256_set1_ps(scale); }
+    struct Doubles {
+        __m256d low, high;
+    };
+    static Doubles same_row(const double* x) {
+        const __m256d once = _mm256_setr_pd(x[0], x[1], x[2], 0);
+        return {once, once};
+    }
+    static Doubles row(const double* const* at, unsigned i) { return {_mm256_loadu_pd(at[i]), _mm256_loadu_pd(at[i + 4])}; }
+    static Float scaled(const Doubles& x, const Doubles& origin, float scale) {
+        const __m256d s = _mm256_set1_pd(double{scale});
+        const __m128 low = _mm256_cvtpd_ps((x.low - origin.low) * s);
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(low), _mm256_cvtpd_ps((x.high - origin.high) * s), 1);
+    }
+
+    // Halves of denormal numbers are not exact: in one operation with what follows they would be others than the grid's.
+    static void settle(Double4& x) { asm("" : "+x"(x)); }
     static void lower(Double4& x, const Double4& y) { x = _mm256_min_pd(x, y); }
     static void raise(Double4& x, const Double4& y) { x = _mm256_max_pd(x, y); }
     static unsigned negative(Int4 x) { return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(x))); }
@@ -90,13 +107,12 @@ struct Avx2 {
 
 /// For the usual few: half of the loads.
 struct Four : Floats4<Four> {
-    using Floats4<Four>::relative;
-    static Lanes<Four> relative(const double* const* at, const double* origin, float scale) {
-        const __m256d o = _mm256_setr_pd(origin[0], origin[1], origin[2], 0);
-        const __m256d s = _mm256_set1_pd(double{scale});
-        const auto row = [&](unsigned i) { return _mm256_cvtpd_ps((_mm256_loadu_pd(at[i]) - o) * s); };
-        return columns(row(0), row(1), row(2), row(3));
-    }
+    using Floats4<Four>::same_row;
+    using Floats4<Four>::row;
+    using Floats4<Four>::scaled;
+    static __m256d same_row(const double* x) { return _mm256_setr_pd(x[0], x[1], x[2], 0); }
+    static __m256d row(const double* const* at, unsigned i) { return _mm256_loadu_pd(at[i]); }
+    static Float scaled(__m256d x, __m256d origin, float scale) { return _mm256_cvtpd_ps((x - origin) * _mm256_set1_pd(double{scale})); }
 };
 
 }  // namespace

@@ -29,22 +29,31 @@ struct Neon {
         return {vcombine_f32(vget_low_f32(xz01), vget_low_f32(xz23)), vcombine_f32(vget_low_f32(y01), vget_low_f32(y23)),
                 vcombine_f32(vget_high_f32(xz01), vget_high_f32(xz23))};
     }
-    static Lanes<Neon> relative(const float* const* at, const float* origin, float scale) {
-        const Float o = vld1q_f32(origin);
-        const auto row = [&](unsigned i) { return vmulq_n_f32(vsubq_f32(vld1q_f32(at[i]), o), scale); };
-        return columns(row(0), row(1), row(2), row(3));
-    }
-    static Lanes<Neon> relative(const double* const* at, const double* origin, float scale) {
-        const float64x2_t xy = vld1q_f64(origin);
-        const float64x2_t z = vld1q_f64(origin + 2);
-        const auto row = [&](unsigned i) {
-            const float64x2_t low = vmulq_n_f64(vsubq_f64(vld1q_f64(at[i]), xy), scale);
-            const float64x2_t high = vmulq_n_f64(vsubq_f64(vdupq_n_f64(at[i][2]), z), scale);
-            return vcombine_f32(vcvt_f32_f64(low), vcvt_f32_f64(high));
-        };
-        return columns(row(0), row(1), row(2), row(3));
+    static Float directions(const float* const* at, Lanes<Neon>& d) {
+        const Float r0 = row(at, 0);
+        const Float r1 = row(at, 1);
+        const Float r2 = row(at, 2);
+        const Float r3 = row(at, 3);
+        d = columns(r0, r1, r2, r3);
+        return vcombine_f32(vget_high_f32(vtrn2q_f32(r0, r1)), vget_high_f32(vtrn2q_f32(r2, r3)));
     }
 
+    static constexpr unsigned rows = 4;
+    static Float same_row(const float* x) { return Float{x[0], x[1], x[2], 0}; }
+    static Float row(const float* const* at, unsigned i) { return vld1q_f32(at[i]); }
+    static Float scaled(Float x, Float origin, float scale) { return vmulq_n_f32(vsubq_f32(x, origin), scale); }
+    struct Doubles {
+        float64x2_t xy, z;
+    };
+    static Doubles same_row(const double* x) { return {vld1q_f64(x), vdupq_n_f64(x[2])}; }
+    static Doubles row(const double* const* at, unsigned i) { return {vld1q_f64(at[i]), vdupq_n_f64(at[i][2])}; }
+    static Float scaled(const Doubles& x, const Doubles& origin, float scale) {
+        const float64x2_t low = vmulq_n_f64(vsubq_f64(x.xy, origin.xy), scale);
+        const float64x2_t high = vmulq_n_f64(vsubq_f64(x.z, origin.z), scale);
+        return vcombine_f32(vcvt_f32_f64(low), vcvt_f32_f64(high));
+    }
+
+    static void settle(Double4&) {}
     static void lower(Double4& x, const Double4& y) { x = x < y ? x : y; }
     static void raise(Double4& x, const Double4& y) { x = x > y ? x : y; }
     static unsigned negative(Int4 x) {

@@ -16,12 +16,27 @@ struct Plain {
     static Float min(Float x, Float y) { return x < y ? x : y; }
     static unsigned less(Float x, Float y) { return x < y ? 1 : 0; }
 
+    static Float directions(const float* const* at, Lanes<Plain>& d) {
+        d = {at[0][0], at[0][1], at[0][2]};
+        return at[0][3];
+    }
+
+    static constexpr unsigned rows = 1;
     template <class Scalar>
-    static Lanes<Plain> relative(const Scalar* const* at, const Scalar* origin, float scale) {
-        const auto difference = [&](unsigned k) { return static_cast<float>((at[0][k] - origin[k]) * Scalar{scale}); };
+    static const Scalar* same_row(const Scalar* x) {
+        return x;
+    }
+    template <class Scalar>
+    static const Scalar* row(const Scalar* const* at, unsigned i) {
+        return at[i];
+    }
+    template <class Scalar>
+    static Lanes<Plain> scaled(const Scalar* x, const Scalar* origin, float scale) {
+        const auto difference = [&](unsigned k) { return static_cast<float>((x[k] - origin[k]) * Scalar{scale}); };
         return {difference(0), difference(1), difference(2)};
     }
 
+    static void settle(Double4&) {}
     static void lower(Double4& x, const Double4& y) { x = x < y ? x : y; }
     static void raise(Double4& x, const Double4& y) { x = x > y ? x : y; }
     static unsigned negative(Int4 x) {

@@ -8,17 +8,20 @@ namespace {
 
 struct Sse2 : Floats4<Sse2> {
     static constexpr unsigned boxes = 2;
-    using Floats4<Sse2>::relative;
-    static Lanes<Sse2> relative(const double* const* at, const double* origin, float scale) {
-        const __m128d xy = _mm_setr_pd(origin[0], origin[1]);
-        const __m128d z = _mm_load_sd(origin + 2);
+    using Floats4<Sse2>::same_row;
+    using Floats4<Sse2>::row;
+    using Floats4<Sse2>::scaled;
+    struct Doubles {
+        __m128d xy, z;
+    };
+    static Doubles same_row(const double* x) { return {_mm_setr_pd(x[0], x[1]), _mm_load_sd(x + 2)}; }
+    static Doubles row(const double* const* at, unsigned i) { return {_mm_loadu_pd(at[i]), _mm_load_sd(at[i] + 2)}; }
+    static Float scaled(const Doubles& x, const Doubles& origin, float scale) {
         const __m128d s = _mm_set1_pd(double{scale});
-        const auto row = [&](unsigned i) {
-            return _mm_movelh_ps(_mm_cvtpd_ps((_mm_loadu_pd(at[i]) - xy) * s), _mm_cvtpd_ps((_mm_load_sd(at[i] + 2) - z) * s));
-        };
-        return columns(row(0), row(1), row(2), row(3));
+        return _mm_movelh_ps(_mm_cvtpd_ps((x.xy - origin.xy) * s), _mm_cvtpd_ps((x.z - origin.z) * s));
     }
 
+    static void settle(Double4&) {}
     static void lower(Double4& x, const Double4& y) { x = x < y ? x : y; }
     static void raise(Double4& x, const Double4& y) { x = x > y ? x : y; }
     static unsigned negative(Int4 x) { return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(x))); }

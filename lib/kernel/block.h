@@ -60,19 +60,31 @@ struct First {
 
 }  // namespace
 
-/// The brick of cells at a place given in bricks; null where there is none.
+/// The root above a brick at a place, given in bricks.
+[[gnu::always_inline]] inline const Node* root_of(const PackedLevel& level, const Int4& brick) {
+    Int4 strides;
+    __builtin_memcpy(&strides, level.strides, sizeof strides);
+    const Int4 way = (brick >> (level.root_shift - 2)) * strides;
+    return level.nodes + static_cast<unsigned>(way[0] + way[1] + way[2]);
+}
+
+/// The brick itself; null where there is none. Where roots are bricks, it may hold nothing.
 template <class Wide>
-[[gnu::always_inline]] inline const Node* find_brick(const PackedLevel& level, int x, int y, int z) {
-    const int shift = level.root_shift - 2;
-    const Node* node = level.nodes + (static_cast<std::size_t>(x >> shift) * level.strides[0] +
-                                      static_cast<std::size_t>(y >> shift) * level.strides[1] +
-                                      static_cast<std::size_t>(z >> shift) * level.strides[2]);
-    for (int down = shift - 2; down >= 0; down -= 2) {
+[[gnu::always_inline]] inline const Node* brick_under(const PackedLevel& level, const Node* node, const Int4& brick) {
+    const int x = brick[0];
+    const int y = brick[1];
+    const int z = brick[2];
+    for (int down = level.root_shift - 4; down >= 0; down -= 2) {
         const std::uint64_t bit = std::uint64_t{1} << ((x >> down & 3) | (y >> down & 3) << 2 | (z >> down & 3) << 4);
         if ((node->parts & bit) == 0) return nullptr;
         node = level.nodes + (node->first + Wide::count_bits(node->parts & (bit - 1)));
     }
-    return node->parts != 0 ? node : nullptr;
+    return node;
+}
+
+template <class Wide>
+[[gnu::always_inline]] inline const Node* find_brick(const PackedLevel& level, const Int4& brick) {
+    return brick_under<Wide>(level, root_of(level, brick), brick);
 }
 
 /// The cells of a brick that hold something and share a step with a segment's box.
@@ -115,21 +127,29 @@ template <class Wide>
     return found;
 }
 
-/// The steps of the segment between two points in a level; false if it is outside.
+/// Three numbers: one by one, as they were mostly written that way a moment ago, and a load of all of them would wait for it.
+template <class Scalar>
+[[gnu::always_inline]] inline void read(const Scalar* x, Double4& point) {
+    using Numbers [[gnu::vector_size(4 * sizeof(Scalar))]] = Scalar;
+    point = __builtin_convertvector((Numbers{x[0], x[1], x[2], 0}), Double4);
+}
+
+/// The steps of the segment between two points, which become places in steps, in a level; false if it is outside.
 template <class Wide>
-[[gnu::always_inline]] inline bool reach_of(const PackedLevel& level, const double* start, const double* finish, Reach& reach) {
+[[gnu::always_inline]] inline bool reach_of(const PackedLevel& level, Double4& from, Double4& to, Reach& reach) {
     Double4 low;
     Double4 scale;
     Double4 most;
     __builtin_memcpy(&low, level.half_low, sizeof low);
     __builtin_memcpy(&scale, level.scale, sizeof scale);
     __builtin_memcpy(&most, level.most, sizeof most);
-    // Number by number: they were mostly written that way a moment ago, and a load of all of them would wait for it.
-    Double4 from = {start[0], start[1], start[2], 0};
-    Double4 to = {finish[0], finish[1], finish[2], 0};
     // Raster::place of halves, operation for operation, so that it is the same function for boxes and for queries.
-    from = (from * 0.5 - low) * scale;
-    to = (to * 0.5 - low) * scale;
+    from *= 0.5;
+    to *= 0.5;
+    Wide::settle(from);
+    Wide::settle(to);
+    from = (from - low) * scale;
+    to = (to - low) * scale;
     // What lies outside of the cells counts as on their border; before that as -1 or `most`, for the one look that says so.
     const Double4 before = {-1, -1, -1, -1};
     Double4 least = from;
@@ -158,7 +178,7 @@ template <class Wide>
     const Int4 last_brick = reach.last_step >> (k_step_bits + 2);
     first.brick = nullptr;
     if (Wide::negative(first_brick - last_brick) != 0) return true;
-    first.brick = find_brick<Wide>(level, first_brick[0], first_brick[1], first_brick[2]);
+    first.brick = find_brick<Wide>(level, first_brick);
     if (first.brick == nullptr) return false;
     first.cells = cells_in_brick(*first.brick, first_brick << 2, reach);
     return first.cells != 0;
@@ -179,7 +199,7 @@ template <class Wide>
     int found = 0;
     for (unsigned bits = 0;; bits = (bits - most_bits) & most_bits) {
         const Int4 brick_at = first_brick + Int4{static_cast<int>(bits & 1), static_cast<int>(bits >> 1 & 1), static_cast<int>(bits >> 2), 0};
-        const Node* brick = find_brick<Wide>(level, brick_at[0], brick_at[1], brick_at[2]);
+        const Node* brick = find_brick<Wide>(level, brick_at);
         if (brick != nullptr) {
             const Int4 corner = brick_at << 2;
             found = stops_in_brick<Wide>(*brick, corner, cells_in_brick(*brick, corner, reach), reach, stops, found);
@@ -188,15 +208,6 @@ template <class Wide>
         if (bits == most_bits) break;
     }
     return found;
-}
-
-/// The cells of the segment between two points, as `stops_of`.
-template <class Wide>
-[[gnu::always_inline]] inline int block(const PackedLevel& level, const double* from, const double* to, Stop* stops) {
-    Reach reach;
-    First first;
-    if (!reach_of<Wide>(level, from, to, reach) || !first_look<Wide>(level, reach, first)) return 0;
-    return stops_of<Wide>(level, reach, first, stops);
 }
 
 // Not inlined: a look that ends before it then has no room to make for it.
@@ -225,15 +236,19 @@ template <class Wide>
     return static_cast<int>(left);
 }
 
-/// All of `block` and `cull` in one call: the ids that the cells leave, and how many cells they are. -1: too many cells, or what they
+/// The ids that the cells of the segment between two points leave, and how many cells they are. -1: too many cells, or what they
 /// list is more than `room`.
 template <class Wide>
 [[gnu::always_inline]] inline int look(const PackedLevel& level, const double* from, const double* to, std::uint32_t* out,
                                        unsigned room, unsigned* cells) {
+    Double4 start;
+    Double4 finish;
+    read(from, start);
+    read(to, finish);
     Reach reach;
     First first;
     *cells = 0;
-    if (!reach_of<Wide>(level, from, to, reach) || !first_look<Wide>(level, reach, first)) return 0;
+    if (!reach_of<Wide>(level, start, finish, reach) || !first_look<Wide>(level, reach, first)) return 0;
     return look_closer<Wide>(level, reach, first, out, room, cells);
 }
 

@@ -30,12 +30,18 @@ struct Floats4 {
         const Float z23 = _mm_unpackhi_ps(r2, r3);
         return {_mm_movelh_ps(xy01, xy23), _mm_movehl_ps(xy23, xy01), _mm_movelh_ps(z01, z23)};
     }
-    static Lanes<Self> relative(const float* const* at, const float* origin, float scale) {
-        const Float o = _mm_setr_ps(origin[0], origin[1], origin[2], 0);
-        const Float s = _mm_set1_ps(scale);
-        const auto row = [&](unsigned i) { return (_mm_loadu_ps(at[i]) - o) * s; };
-        return columns(row(0), row(1), row(2), row(3));
+    static Float fourth(Float r0, Float r1, Float r2, Float r3) {
+        return _mm_movehl_ps(_mm_unpackhi_ps(r2, r3), _mm_unpackhi_ps(r0, r1));
     }
+    static Float directions(const float* const* at, Lanes<Self>& d) {
+        d = columns(row(at, 0), row(at, 1), row(at, 2), row(at, 3));
+        return fourth(row(at, 0), row(at, 1), row(at, 2), row(at, 3));
+    }
+
+    static constexpr unsigned rows = 4;
+    static Float same_row(const float* x) { return _mm_setr_ps(x[0], x[1], x[2], 0); }
+    static Float row(const float* const* at, unsigned i) { return _mm_loadu_ps(at[i]); }
+    static Float scaled(Float x, Float origin, float scale) { return (x - origin) * _mm_set1_ps(scale); }
 };
 
 }  // namespace

@@ -51,12 +51,11 @@ template <class Wide>
     return Wide::max(Wide::abs(p.x), Wide::max(Wide::abs(p.y), Wide::abs(p.z)));
 }
 
-/// Bit i is set where lane i may be hit.
+/// Bit i is set where lane i may be hit. `probe`: with the direction `d` and its `reach` of each lane, all else for all of them.
 template <class Wide, class Scalar>
-[[gnu::always_inline]] inline unsigned may_hit(const Probe<Scalar>& probe, const Lanes<Wide>& a, const Lanes<Wide>& b,
-                                               const Lanes<Wide>& c) {
+[[gnu::always_inline]] inline unsigned may_hit(const Probe<Scalar>& probe, const Lanes<Wide>& d, const typename Wide::Float& reach,
+                                               const Lanes<Wide>& a, const Lanes<Wide>& b, const Lanes<Wide>& c) {
     using Float = typename Wide::Float;
-    const Lanes<Wide> d = {Wide::all(probe.direction[0]), Wide::all(probe.direction[1]), Wide::all(probe.direction[2])};
     const Lanes<Wide> bc = cross(b, c);
     const Float wa = dot(d, bc);
     const Float wb = dot(d, cross(c, a));
@@ -66,9 +65,8 @@ template <class Wide, class Scalar>
 
     const Float most = Wide::max(largest(a), Wide::max(largest(b), largest(c)));
     const Float square = most * most;
-    const Float reach = Wide::all(probe.reach);
     const Float more = most + Wide::all(1);
-    const Float floor = Wide::all(0x1p-126F * (1 + probe.reach)) * (more * more);
+    const Float floor = Wide::all(0x1p-126F) * (Wide::all(1) + reach) * (more * more);
     const Float unit = Wide::all(probe.unit);
     const Float e = reach * most * (Wide::all(48) * unit * most + Wide::all(13 * probe.noise)) + floor;
     const Float ev = Wide::all(64) * unit * square * (most + Wide::all(3) * reach) + floor;
@@ -86,9 +84,21 @@ template <class Wide, class Scalar>
     return ~(tame & (front | ~probe.front) & (back | ~probe.back));
 }
 
+/// Points relative to origins, a row for each point of a lane; row i is of the lanes i, i + 4, ..., or of all lanes where there is one row only.
+template <class Wide, class Scalar, class Row>
+[[gnu::always_inline]] inline Lanes<Wide> relative(const Scalar* const* at, const Row* origin, float scale) {
+    const auto row = [&](unsigned i) { return Wide::scaled(Wide::row(at, i), origin[i], scale); };
+    if constexpr (Wide::rows == 1) return row(0);
+    else return Wide::columns(row(0), row(1), row(2), row(3));
+}
+
 template <class Wide, class Scalar>
 [[gnu::always_inline]] inline unsigned refine(const Probe<Scalar>& probe, const Scalar* corners, std::uint32_t* ids, unsigned count,
                                               std::uint32_t* out) {
+    const Lanes<Wide> d = {Wide::all(probe.ray.direction[0]), Wide::all(probe.ray.direction[1]), Wide::all(probe.ray.direction[2])};
+    const auto reach = Wide::all(probe.ray.direction[3]);
+    const auto same = Wide::same_row(probe.ray.origin);
+    const decltype(Wide::same_row(probe.ray.origin)) origin[] = {same, same, same, same};
     unsigned left = 0;
     if (count % Wide::width != 0)  // lanes without a triangle of their own take the first one
         for (unsigned i = 0; i < Wide::width - 1; ++i) ids[count + i] = ids[0];
@@ -98,10 +108,10 @@ template <class Wide, class Scalar>
         const auto corner = [&](unsigned k) {
             const Scalar* x[Wide::width];
             for (unsigned i = 0; i < Wide::width; ++i) x[i] = at[i] + 3 * k;
-            return Wide::relative(x, probe.origin, probe.scale);
+            return relative<Wide>(x, origin, probe.scale);
         };
         const unsigned here = count - first < Wide::width ? count - first : Wide::width;
-        const unsigned lanes = may_hit<Wide>(probe, corner(0), corner(1), corner(2));
+        const unsigned lanes = may_hit<Wide>(probe, d, reach, corner(0), corner(1), corner(2));
         for (unsigned found = lanes & ((1U << here) - 1); found != 0; found &= found - 1)
             out[left++] = ids[first + static_cast<unsigned>(__builtin_ctz(found))];
     }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <kernel/backends.h>
+#include <kernel/many.h>
 #include <kernel/walk.h>
 
 namespace pierce::detail {
@@ -11,9 +12,6 @@ namespace pierce::detail {
 /// `Wide` for boxes, `Many` for triangles; `Few` for up to its own width of these: fewer loads for the usual few.
 template <class Wide, class Many = Wide, class Few = Many>
 struct Kernels {
-    static int block(const PackedLevel& level, const double* from, const double* to, Stop* stops) {
-        return detail::block<Wide>(level, from, to, stops);
-    }
     static int look(const PackedLevel& level, const double* from, const double* to, std::uint32_t* out, unsigned room,
                     unsigned* cells) {
         return detail::look<Wide>(level, from, to, out, room, cells);
@@ -28,6 +26,20 @@ struct Kernels {
                          std::uint32_t* out) {
         return detail::cull<Wide>(boxes, ids, count, above, seen, out);
     }
+    static unsigned cull_many(const Boxes* cells, unsigned count, const void* corners, std::size_t bytes, std::uint32_t* ids,
+                              std::uint32_t* queries) {
+        return detail::cull_many<Wide>(cells, count, corners, bytes, ids, queries);
+    }
+    template <class Scalar>
+    static unsigned find(const PackedLevel& level, const Ends<Scalar>& ends, std::size_t first, unsigned count, float scale, Stop* out,
+                         Look* looks, Ray<Scalar>* rays) {
+        return detail::find<Wide>(level, ends, first, count, scale, out, looks, rays);
+    }
+    template <class Scalar>
+    static unsigned refine_many(const Probe<Scalar>& probe, const Ray<Scalar>* rays, const Scalar* corners, std::uint32_t* ids,
+                                std::uint32_t* queries, unsigned count, std::uint32_t* out) {
+        return detail::refine_many<Many>(probe, rays, corners, ids, queries, count, out);
+    }
     template <class Scalar>
     static unsigned refine(const Probe<Scalar>& probe, const Scalar* corners, std::uint32_t* ids, unsigned count, std::uint32_t* out) {
         if (count <= Few::width) return detail::refine<Few>(probe, corners, ids, count, out);
@@ -35,7 +47,8 @@ struct Kernels {
     }
 
     static constexpr Backend named(const char* name) {
-        return {name, block, look, start_walk, walk, cull, refine<float>, refine<double>};
+        return {name, look, start_walk, walk, cull, cull_many, {find<float>, refine<float>, refine_many<float>},
+                {find<double>, refine<double>, refine_many<double>}};
     }
 };
 

@@ -6,19 +6,12 @@ namespace pierce::detail {
 
 namespace {
 
-template <class Scalar>
-bool path_of(const Ends<Scalar>& ends, std::size_t i, Path& path, std::size_t& invalid) {
-    const auto at = static_cast<std::ptrdiff_t>(i);
-    const Scalar* from = ends.from + at * ends.from_stride;
-    const Scalar* to = ends.to + at * ends.to_stride;
-    bool finite = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-        finite = finite && std::isfinite(from[k]) && std::isfinite(to[k]);
-        path.from[k] = static_cast<double>(from[k]);
-        path.to[k] = static_cast<double>(to[k]);
-    }
-    if (!finite) ++invalid;
-    return finite;
+template <class Collector, class Scalar, class Make, class Hit>
+void each_group(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last, const QueryOptions& options,
+                QueryCounters& counters, std::size_t& invalid, Make&& make, Hit&& hit) {
+    Group<Certified, Collector, Scalar> group(scene, ends, options, counters);
+    for (; first < last; first += k_group) group.take(first, static_cast<unsigned>(std::min<std::size_t>(last - first, k_group)), invalid, make, hit);
+    group.finish(make, hit);
 }
 
 }  // namespace
@@ -27,18 +20,13 @@ template <class Scalar, class Answer>
 std::size_t first_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last,
                        std::optional<Answer>* out, const QueryOptions& options, QueryCounters& counters, std::size_t& invalid) {
     std::size_t hits = 0;
-    fly<Certified, First<Scalar>>(
-        scene, last - first, options, counters,
-        [&](std::size_t i, Path& path) { return path_of(ends, first + i, path, invalid); },
-        [&](const Path& path) { return First<Scalar>(scene, path, counters); },
-        [&](std::size_t i, auto* query) {
-            std::optional<Answer>& to = out[first + i];
-            to.reset();
-            if (query == nullptr || !query->collector.found()) return;
+    for (std::size_t i = first; i < last; ++i) out[i].reset();
+    each_group<First<Scalar>>(
+        scene, ends, first, last, options, counters, invalid, [&](const Path& path) { return First<Scalar>(scene, path, counters); },
+        [&](std::size_t i, const auto& query, Shortlist& list) {
             ++hits;
-            Answer& hit = to.emplace();
-            answer<Certified, Scalar>(scene, query->path, query->collector.best(), none_passed, options, counters,
-                                      &query->shortlist, hit);
+            Answer& hit = out[i].emplace();
+            answer<Certified, Scalar>(scene, query.path, query.collector.best(), none_passed, options, counters, &list, hit);
             if constexpr (std::is_same_v<Answer, SweepHit<Scalar>>) hit.time_of_impact = hit.fraction;
         });
     return hits;
@@ -48,15 +36,12 @@ template <class Scalar>
 std::size_t any_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last, std::uint8_t* out,
                      const QueryOptions& options, QueryCounters& counters, std::size_t& invalid) {
     std::size_t hits = 0;
-    using Collector = decltype(Any(none_passed));
-    fly<Certified, Collector>(
-        scene, last - first, options, counters,
-        [&](std::size_t i, Path& path) { return path_of(ends, first + i, path, invalid); },
-        [](const Path&) { return Any(none_passed); },
-        [&](std::size_t i, const auto* query) {
-            const bool hit = query != nullptr && query->collector.found();
-            out[first + i] = hit ? 1 : 0;
-            hits += hit ? 1 : 0;
+    std::fill(out + first, out + last, std::uint8_t{0});
+    each_group<decltype(Any(none_passed))>(
+        scene, ends, first, last, options, counters, invalid, [](const Path&) { return Any(none_passed); },
+        [&](std::size_t i, const auto&, Shortlist&) {
+            ++hits;
+            out[i] = 1;
         });
     return hits;
 }

@@ -21,15 +21,6 @@ template <class Scalar>
 [[gnu::noinline]] bool any_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
                                QueryCounters& counters);
 
-/// The ends of many segments: number i is the three scalars at `from + i * from_stride`, and so on.
-template <class Scalar>
-struct Ends {
-    const Scalar* from;
-    const Scalar* to;
-    std::ptrdiff_t from_stride;
-    std::ptrdiff_t to_stride;
-};
-
 /// Queries `first` to `last`. Those that are not finite count as `invalid`. Returns the number of hits.
 template <class Scalar, class Answer>
 [[gnu::noinline]] std::size_t first_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last,

@@ -39,6 +39,33 @@ struct Shortlist {
 /// In whole cache lines, as the first few ids are written many at a time and read one by one at once.
 struct alignas(64) Ids : std::array<std::uint32_t, Shortlist::k_most> {};
 
+/// What the wide kernels ask of a segment around its start, but for the ray.
+template <class Scalar>
+[[nodiscard]] Probe<Scalar> make_probe(float scale, Sides sides, float unit) {
+    Probe<Scalar> probe;
+    probe.scale = scale;
+    probe.noise = 0;
+    probe.ends = 1;
+    probe.unit = unit;
+    probe.front = sides != Sides::back ? ~0U : 0U;
+    probe.back = sides != Sides::front ? ~0U : 0U;
+    return probe;
+}
+
+/// Around its start.
+template <class Scalar>
+void set_ray(const Path& path, float scale, Ray<Scalar>& ray) {
+    double reach = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double d = (path.to[k] - path.from[k]) * static_cast<double>(scale);
+        ray.origin[k] = static_cast<Scalar>(path.from[k]);
+        ray.direction[k] = static_cast<float>(d);
+        reach = std::max(reach, std::abs(d));
+    }
+    ray.origin[3] = 0;
+    ray.direction[3] = static_cast<float>(reach);
+}
+
 template <class Scalar>
 class Search {
   public:
@@ -61,13 +88,13 @@ class Search {
     /// errors are those of the cells' size and not of the path's length.
     void come_to(double fraction) {
         prepare();
-        if (probe_.reach > k_far) move_to(fraction);
+        if (probe_.ray.direction[3] > k_far) move_to(fraction);
     }
 
     void move_to(double fraction) {
         prepare();
         for (std::size_t k = 0; k < 3; ++k)
-            probe_.origin[k] = static_cast<Scalar>(path.from[k] + fraction * (path.to[k] - path.from[k]));
+            probe_.ray.origin[k] = static_cast<Scalar>(path.from[k] + fraction * (path.to[k] - path.from[k]));
         probe_.noise = static_cast<float>(rounding() * static_cast<double>(scene.scale) * 1.0001);
         probe_.ends = 0;
     }
@@ -89,22 +116,8 @@ class Search {
     void prepare() {
         if (prepared_) return;
         prepared_ = true;
-        const double scale = static_cast<double>(scene.scale);
-        double reach = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double d = (path.to[k] - path.from[k]) * scale;
-            probe_.origin[k] = static_cast<Scalar>(path.from[k]);
-            probe_.direction[k] = static_cast<float>(d);
-            reach = std::max(reach, std::abs(d));
-        }
-        probe_.origin[3] = 0;
-        probe_.direction[3] = 0;
-        probe_.scale = scene.scale;
-        probe_.reach = static_cast<float>(reach);
-        probe_.noise = 0;
-        probe_.ends = 1;
-        probe_.front = sides_ != Sides::back ? ~0U : 0U;
-        probe_.back = sides_ != Sides::front ? ~0U : 0U;
+        probe_ = make_probe<Scalar>(scene.scale, sides_, 0);
+        set_ray(path, scene.scale, probe_.ray);
     }
 
     Probe<Scalar> probe_;

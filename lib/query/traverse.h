@@ -56,6 +56,23 @@ struct Certified {
     using Face = CertifiedFace<Scalar>;
 };
 
+/// Gives the collector a triangle that the wide kernels leave, if the path hits it under `options`.
+template <class Kernel, class Scalar, class Collector>
+void test_triangle(const Scene<Scalar>& scene, const Path& path, std::uint32_t triangle, const QueryOptions& options,
+                   QueryCounters& counters, Collector& collector) {
+    if (!collector.wants(triangle) || masked(scene, triangle, options)) return;
+    Candidate& candidate = collector.room();
+    const double limit = std::min(collector.limit(), options.max_fraction);
+    const Corners corners = scene.corners(triangle);
+    if (!Kernel::test(corners, triangle, path, options.sides, limit, counters, candidate)) return;
+    if (candidate.latest > options.max_fraction) {
+        if (candidate.earliest > options.max_fraction) return;
+        if (!fraction_at_most(path, corners, options.max_fraction)) return;
+    }
+    if (options.accept && !accepted(scene, path, candidate, options, counters)) return;
+    collector.add();
+}
+
 /// Asks the kernels about a list of triangles and gives the collector those that the path hits under `options`.
 /// (Not inlined: most short segments come near no triangle.)
 template <class Kernel, class Scalar, class Collector>
@@ -71,20 +88,7 @@ template <class Kernel, class Scalar, class Collector>
         ids += some;
         count -= some;
         for (unsigned i = 0; i < found; ++i) __builtin_prefetch(&scene.triangle_numbers[left[i]]);  // for the answer
-        for (unsigned i = 0; i < found; ++i) {
-            const std::uint32_t triangle = left[i];
-            if (!collector.wants(triangle) || masked(scene, triangle, options)) continue;
-            Candidate& candidate = collector.room();
-            const double limit = std::min(collector.limit(), options.max_fraction);
-            const Corners corners = scene.corners(triangle);
-            if (!Kernel::test(corners, triangle, search.path, options.sides, limit, counters, candidate)) continue;
-            if (candidate.latest > options.max_fraction) {
-                if (candidate.earliest > options.max_fraction) continue;
-                if (!fraction_at_most(search.path, corners, options.max_fraction)) continue;
-            }
-            if (options.accept && !accepted(scene, search.path, candidate, options, counters)) continue;
-            collector.add();
-        }
+        for (unsigned i = 0; i < found; ++i) test_triangle<Kernel>(scene, search.path, left[i], options, counters, collector);
     }
 }
 

@@ -61,9 +61,12 @@ void find(const Backend& backend, const Grid& grid, const Path& path, Way way, d
         };
         if (way == Way::block) {
             std::array<Stop, k_most_block> stops;
-            const int found = backend.block(level.packed(), path.from.data(), path.to.data(), stops.data());
-            wide = wide || found < 0;
-            for (int i = 0; i < found; ++i) visit(stops[static_cast<std::size_t>(i)]);
+            Look look = Look::seen;
+            Ray<double> ray;
+            const Ends<double> ends{path.from.data(), path.to.data(), 3, 3};
+            const unsigned found = backend.of<double>().find(level.packed(), ends, 0, 1, 1, stops.data(), &look, &ray);
+            wide = wide || look == Look::alone;
+            for (unsigned i = 0; i < found; ++i) visit(stops[i]);
         } else {
             Walk walk;
             const Walking walking =

@@ -138,12 +138,34 @@ class Judge {
             else wrong = wrong || hit;
         }
         wrong = wrong || next != found;
+        wrong = wrong || (search.probe(0x1p-24F).noise == 0 && refine_many(search.probe(0x1p-24F), ids, count, sides, truth));
         tally_.decisions += count;
         tally_.hits += hits;
         refused += count - found;
         if (!wrong) return;
         ++tally_.wrong;
         ADD_FAILURE() << "sides " << int(sides) << " scale " << scene_.scale << " noise " << search.probe(0x1p-24F).noise << ": " << describe(pair_);
+    }
+
+    /// Each triangle with a ray of its own, the true one or one that is something else; whether a hit of the former is refused.
+    bool refine_many(const Probe<Scalar>& probe, std::array<std::uint32_t, 18 + 8> ids, unsigned count, Sides sides, int truth) {
+        std::array<Ray<Scalar>, 3> rays = {probe.ray, probe.ray, probe.ray};
+        for (std::size_t k = 0; k < 3; ++k) rays[0].direction[k] = -rays[0].direction[k];
+        rays[2].origin[random_.below(3)] += static_cast<Scalar>(random_.between(-1, 1));
+        std::array<std::uint32_t, 18 + 8> queries{};
+        for (unsigned i = 0; i < count; ++i) queries[i] = static_cast<std::uint32_t>(random_.below(3));
+        std::array<std::uint32_t, 18 + 1> out{};
+        out[count] = k_untouched;
+        const unsigned found = backend_.of<Scalar>().refine_many(probe, rays.data(), scene_.coordinates.data(), ids.data(), queries.data(), count, out.data());
+        if (out[count] != k_untouched || found > count) return true;
+        unsigned next = 0;
+        for (unsigned i = 0; i < count; ++i) {
+            const int side = ids[i] < 3 ? truth : -truth;
+            const bool hit = side > 0 ? sides != Sides::back : side < 0 && sides != Sides::front;
+            if (next < found && out[next] == i) ++next;
+            else if (hit && queries[i] == 1) return true;
+        }
+        return next != found;
     }
 
     int true_side() {

@@ -47,9 +47,9 @@ int refine_differs() {
         for (Scalar& x : corners) x = static_cast<Scalar>(between(-1, 1));
         Probe<Scalar> probe{};
         for (unsigned k = 0; k < 3; ++k) {
-            probe.origin[k] = static_cast<Scalar>(between(-1, 1));
-            probe.direction[k] = static_cast<float>(between(-2, 2));
-            probe.reach = std::fmax(probe.reach, std::fabs(probe.direction[k]));
+            probe.ray.origin[k] = static_cast<Scalar>(between(-1, 1));
+            probe.ray.direction[k] = static_cast<float>(between(-2, 2));
+            probe.ray.direction[3] = std::fmax(probe.ray.direction[3], std::fabs(probe.ray.direction[k]));
         }
         probe.scale = 1;
         probe.noise = round % 2 == 0 ? 0 : 1e-6F;
@@ -57,17 +57,28 @@ int refine_differs() {
         probe.unit = 0x1p-24F;
         probe.front = round % 3 != 0 ? ~0U : 0U;
         probe.back = round % 3 != 1 ? ~0U : 0U;
-        std::uint32_t ids[k_count];
+        std::uint32_t ids[k_count + 8];
         for (unsigned i = 0; i < k_count; ++i) ids[i] = (i * 5 + 3) % k_count;
         const auto count = static_cast<unsigned>(engine() % (k_count + 1));
         std::uint32_t neon[k_count + 1];
         std::uint32_t plain[k_count + 1];
-        const unsigned found = k_neon.refine(probe, corners, ids, count, neon);
-        const unsigned expected = k_plain.refine(probe, corners, ids, count, plain);
+        const unsigned found = k_neon.refine<Scalar>(probe, corners, ids, count, neon);
+        const unsigned expected = k_plain.refine<Scalar>(probe, corners, ids, count, plain);
         left += static_cast<int>(found);
         refused += static_cast<int>(count - found);
         bool same = found == expected;
         for (unsigned i = 0; same && i < found; ++i) same = neon[i] == plain[i];
+        differing += same ? 0 : 1;
+
+        // Each triangle with a ray of its own; here the list has places.
+        Ray<Scalar> rays[3] = {probe.ray, probe.ray, probe.ray};
+        for (unsigned k = 0; k < 3; ++k) rays[1].direction[k] = -rays[1].direction[k];
+        rays[2].origin[round % 3] += Scalar{0.5};
+        std::uint32_t queries[k_count + 8];
+        for (unsigned i = 0; i < count; ++i) queries[i] = (i + static_cast<unsigned>(round)) % 3;
+        const unsigned many = k_neon.of<Scalar>().refine_many(probe, rays, corners, ids, queries, count, neon);
+        same = many == k_plain.of<Scalar>().refine_many(probe, rays, corners, ids, queries, count, plain);
+        for (unsigned i = 0; same && i < many; ++i) same = neon[i] == plain[i];
         differing += same ? 0 : 1;
     }
     std::printf("%d triangles left, %d refused; %d lists differ\n", left, refused, differing);
