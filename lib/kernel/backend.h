@@ -18,8 +18,9 @@ namespace pierce::detail {
 /// A line as the wide kernels read it, in units of about a cell, so that single precision neither overflows nor underflows.
 template <class Scalar>
 struct Ray {
-    Scalar origin[4];    ///< a point that the line passes within `noise`; the segment's start where noise is 0. The fourth is 0
-    float direction[4];  ///< to - from, times `scale`, each component rounded once. The fourth is the reach, the largest of their sizes
+    Scalar origin[4];    ///< a point that the line passes; the segment's start where `ends` are asked about. The fourth is 0
+    float direction[4];  ///< to - from, times `scale`, each component rounded once. The fourth: how far off, in each component and times
+                         ///< `scale`, what a refusal is to hold for is from the line through the origin (lanes.h)
 };
 
 /// And what is asked of it.
@@ -27,8 +28,7 @@ template <class Scalar>
 struct Probe {
     Ray<Scalar> ray;
     float scale;            ///< a power of two
-    float noise;            ///< times `scale`; 0 where the origin is the segment's start
-    float ends;             ///< 1: ask also on which side of the plane the ends are, which needs noise 0; 0: do not
+    float ends;             ///< 1: ask also on which side of the plane the ends are, which needs the start as origin; 0: do not
     float unit;             ///< the rounding unit that the bounds are in: 2^-24 (a benchmark sets it to 0)
     std::uint32_t front;    ///< all bits set: hits from the front count
     std::uint32_t back;

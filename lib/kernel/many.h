@@ -25,22 +25,28 @@ template <class Wide>
 }  // namespace
 
 // query/search.h, set_ray, operation for operation.
-template <class Scalar>
+template <class Wide, class Scalar>
 [[gnu::always_inline]] inline void set_ray(const Scalar* start, const Scalar* finish, float scale, Ray<Scalar>& ray) {
     using Float4 [[gnu::vector_size(16)]] = float;
+    constexpr bool single = sizeof(Scalar) == sizeof(float);
+    constexpr double least = single ? 0x1p-126 : 0x1p-1022;
+    constexpr double unit = single ? 0x1p-50 + 0x1p-24 : 0x1p-50 + 0x1p-53;
     Double4 from;
     Double4 to;
     read(start, from);
     read(finish, to);
     Float4 direction = __builtin_convertvector((to - from) * double{scale}, Float4);
-    float reach = 0;
+    Double4 furthest = from;
+    Wide::raise(furthest, -from);
+    Wide::raise(furthest, to);
+    Wide::raise(furthest, -to);
+    double most = least;
     for (int k = 0; k < 3; ++k) {
-        const float size = direction[k] < 0 ? -direction[k] : direction[k];
-        reach = size > reach ? size : reach;
+        most = furthest[k] > most ? furthest[k] : most;
         ray.origin[k] = start[k];
     }
     ray.origin[3] = 0;
-    direction[3] = reach;
+    direction[3] = static_cast<float>(most * unit * (double{scale} * 2.0002));
     __builtin_memcpy(ray.direction, &direction, sizeof direction);
 }
 
@@ -92,7 +98,7 @@ template <class Wide, class Scalar>
         }
         found += static_cast<unsigned>(some);
         const auto at = static_cast<std::ptrdiff_t>(first + i);
-        set_ray(ends.from + at * ends.from_stride, ends.to + at * ends.to_stride, scale, rays[i]);
+        set_ray<Wide>(ends.from + at * ends.from_stride, ends.to + at * ends.to_stride, scale, rays[i]);
     }
     return found;
 }
@@ -150,8 +156,8 @@ template <class Wide, class Scalar>
         };
         const unsigned here = count - first < Wide::width ? count - first : Wide::width;
         Lanes<Wide> d;
-        const auto reach = Wide::directions(directions, d);
-        const unsigned lanes = may_hit<Wide>(probe, d, reach, corner(0), corner(1), corner(2));
+        const auto noise = Wide::directions(directions, d);
+        const unsigned lanes = may_hit<Wide>(probe, d, noise, corner(0), corner(1), corner(2));
         for (unsigned some = lanes & ((1U << here) - 1); some != 0; some &= some - 1)
             out[left++] = first + static_cast<unsigned>(__builtin_ctz(some));
     }

@@ -11,10 +11,10 @@ namespace pierce::detail {
 
 /// Writes the hit of a candidate, to where the caller wants it: a copy of what was just written number by number would wait for memory.
 /// `passed(triangle)` says which triangles are hit strictly before it, and so on the way to any point near it. With a complete
-/// `shortlist` of the query's triangles the grid is not asked again.
+/// list of the query's triangles nothing else is asked again.
 template <class Kernel, class Scalar, class Passed>
 void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Passed& passed, const QueryOptions& options,
-            QueryCounters& counters, Shortlist* shortlist, Hit<Scalar>& hit) {
+            QueryCounters& counters, const Shortlist* list, Hit<Scalar>& hit) {
     const std::uint32_t triangle = candidate.triangle;
     const Corners corners = scene.corners(triangle);
     typename Kernel::template Face<Scalar> face(corners, counters);
@@ -26,11 +26,12 @@ void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candi
     const auto side = [&](const Point& point) { return face.side(point); };
     const auto clear = [&](const Point& point) {
         const Path way{path.from, point};
-        Search<Scalar> search(scene, way, options.sides);
         Any any(passed, triangle);  // verify() has seen to the hit's own triangle
-        if (shortlist != nullptr && shortlist->complete) {
-            test_triangles<Kernel>(search, shortlist->ids, shortlist->count, whole, counters, any);
+        if (list != nullptr && list->complete) {
+            for (unsigned i = 0; i < list->count && !any.found(); ++i)
+                test_triangle<Kernel>(scene, way, list->ids[i], whole, counters, any);
         } else {
+            Search<Scalar> search(scene, way, options.sides);
             traverse<Kernel>(search, whole, counters, any);
         }
         return !any.found();
@@ -46,12 +47,12 @@ template <class Kernel, class Scalar>
                                                       QueryCounters& counters) {
     std::optional<Hit<Scalar>> hit;
     Ids ids;
-    Shortlist list(ids.data());
-    const Near near = look_near(scene, path, 0, list, counters);
+    const Near near = look_near(scene, path, 0, ids, counters);
     if (near.count == 0) return hit;
     Search<Scalar> search(scene, path, options.sides);
     First<Scalar> first(scene, path, counters);
-    traverse<Kernel>(search, near, list, options, counters, first);
+    Shortlist list;
+    traverse<Kernel>(search, near, ids, options, counters, first, list);
     if (first.found()) answer<Kernel>(scene, path, first.best(), none_passed, options, counters, &list, hit.emplace());
     return hit;
 }

@@ -34,7 +34,7 @@ class Group {
           probe_(make_probe<Scalar>(scene.scale, options.sides, Kernel::unit)) {}
 
     /// Takes queries from `first` on; those that are not finite count as `invalid`. `make(path)` gives a query's collector, `hit(i, query,
-    /// list)` gets query number i if its collector has found something, and the triangles that it came near. The last steps are left to
+    /// list)` gets query number i if its collector has found something, and its shortlist. The last steps are left to
     /// the next call or to `finish`: while they are taken, memory brings what the next queries have asked for.
     template <class Make, class Hit>
     void take(std::size_t first, unsigned count, std::size_t& invalid, Make&& make, Hit&& hit) {
@@ -47,11 +47,10 @@ class Group {
         cull_boxes();
         for (unsigned i = 0; i < count_; ++i) {
             if (looks_[i] != Look::alone) continue;
-            Ids ids;
-            Shortlist list(ids.data());
+            Shortlist list;
             Query<Collector> query([&] { return path_of(first_ + i); }, make);
             Search<Scalar> search(scene_, query.path, options_.sides);
-            traverse<Kernel>(search, list, options_, counters_, query.collector);
+            traverse<Kernel>(search, options_, counters_, query.collector, list);
             if (query.collector.found()) hit(first_ + i, query, list);
         }
     }
@@ -63,7 +62,7 @@ class Group {
 
   private:
     static constexpr unsigned k_most_cells = 2 * k_most_block;       ///< of a query, in all levels
-    static constexpr unsigned k_most_pairs = k_group * Shortlist::k_room;
+    static constexpr unsigned k_most_pairs = k_group * k_room;
     using Rays = std::array<Ray<Scalar>, k_group>;
 
     Path path_of(std::size_t number) const {
@@ -131,7 +130,7 @@ class Group {
     void cull_boxes() {
         unsigned some = 0;
         for (unsigned b = 0; b < box_count_; ++b) {
-            if (listed_[boxes_[b].query] > Shortlist::k_room) looks_[boxes_[b].query] = Look::alone;
+            if (listed_[boxes_[b].query] > k_room) looks_[boxes_[b].query] = Look::alone;
             else boxes_[some++] = boxes_[b];
         }
         counters_.cells += some;
@@ -147,19 +146,13 @@ class Group {
         for (unsigned k = 0; k < left;) {
             const std::uint32_t i = queries_[left_[k]];
             Query<Collector> query([&] { return path_of(first + i); }, make);
-            const unsigned pair = left_[k];
-            for (; k < left && queries_[left_[k]] == i; ++k)
-                test_triangle<Kernel>(scene_, query.path, ids_[left_[k]], options_, counters_, query.collector);
+            Shortlist list;
+            for (; k < left && queries_[left_[k]] == i; ++k) {
+                const std::uint32_t triangle = ids_[left_[k]];
+                list.add(&triangle, 1);
+                test_triangle<Kernel>(scene_, query.path, triangle, options_, counters_, query.collector);
+            }
             if (!query.collector.found()) continue;
-            unsigned begin = pair;
-            while (begin > 0 && queries_[begin - 1] == i) --begin;
-            unsigned end = pair;
-            while (end < pair_count_ && queries_[end] == i) ++end;
-            // A copy, as kernels write beyond a list.
-            Ids ids;
-            Shortlist list(ids.data());
-            std::copy(ids_.begin() + begin, ids_.begin() + end, ids.begin());
-            list.take(end - begin);
             hit(first + i, query, list);
         }
         pair_count_ = 0;

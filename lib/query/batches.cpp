@@ -23,7 +23,7 @@ std::size_t first_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std
     for (std::size_t i = first; i < last; ++i) out[i].reset();
     each_group<First<Scalar>>(
         scene, ends, first, last, options, counters, invalid, [&](const Path& path) { return First<Scalar>(scene, path, counters); },
-        [&](std::size_t i, const auto& query, Shortlist& list) {
+        [&](std::size_t i, const auto& query, const Shortlist& list) {
             ++hits;
             Answer& hit = out[i].emplace();
             answer<Certified, Scalar>(scene, query.path, query.collector.best(), none_passed, options, counters, &list, hit);
@@ -39,7 +39,7 @@ std::size_t any_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::
     std::fill(out + first, out + last, std::uint8_t{0});
     each_group<decltype(Any(none_passed))>(
         scene, ends, first, last, options, counters, invalid, [](const Path&) { return Any(none_passed); },
-        [&](std::size_t i, const auto&, Shortlist&) {
+        [&](std::size_t i, const auto&, const Shortlist&) {
             ++hits;
             out[i] = 1;
         });

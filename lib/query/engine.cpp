@@ -19,12 +19,12 @@ bool any_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const Q
              QueryCounters& counters) {
     const Path path = to_path(segment);
     Ids ids;
-    Shortlist list(ids.data());
-    const Near near = look_near(scene, path, 0, list, counters);
+    const Near near = look_near(scene, path, 0, ids, counters);
     if (near.count == 0) return false;
     Search<Scalar> search(scene, path, options.sides);
     Any any(none_passed);
-    traverse<Certified>(search, near, list, options, counters, any);
+    Shortlist unused;
+    traverse<Certified>(search, near, ids, options, counters, any, unused);
     return any.found();
 }
 
@@ -59,10 +59,7 @@ int crossings_of(const Scene<Scalar>& scene, const Path& path, QueryCounters& co
     int sum = 0;
     Search<Scalar> search(scene, path, Sides::both);
     // The move is infinitesimal: a path that does not even touch a closed triangle does not cross it when moved either.
-    Ids room;
-    Shortlist list(room.data());
-    const Near near = look_near(scene, path, 0, list, counters);
-    visit_near(search, near, true, list, [] { return 1.0; }, counters, [&](std::uint32_t* ids, unsigned count) {
+    visit_all_near(search, counters, [&](std::uint32_t* ids, unsigned count) {
         Ids left;
         const unsigned found = scene.backend->refine(search.probe(Certified::unit), scene.coordinates.data(), ids, count, left.data());
         counters.triangles += count;

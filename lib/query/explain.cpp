@@ -78,10 +78,7 @@ std::vector<FaceVerdict> explain(const Scene<Scalar>& scene, const Segment<Scala
     traverse<Certified>(search, options, counters, first);
 
     std::vector<std::uint32_t> near;
-    Ids room;
-    Shortlist list(room.data());
-    visit_near(search, look_near(scene, path, 0, list, counters), true, list, [] { return 1.0; }, counters,
-               [&](const std::uint32_t* ids, unsigned count) { near.insert(near.end(), ids, ids + count); });
+    visit_all_near(search, counters, [&](const std::uint32_t* ids, unsigned count) { near.insert(near.end(), ids, ids + count); });
     // The grid does not list triangles without area.
     for (auto i = static_cast<std::uint32_t>(scene.triangles.size() - scene.degenerate); i < scene.triangles.size(); ++i)
         if (overlap(box_of(path), box_of(scene.corners(i)))) near.push_back(i);

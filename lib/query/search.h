@@ -12,39 +12,46 @@ namespace pierce::detail {
 /// Room behind a list of ids that the kernels may write to.
 constexpr unsigned k_beyond_ids = 8;
 
-/// What the culling left of the cells that a query visited: all triangles that could stop a point on its way to the hit, if
-/// `complete`. So the verified point needs no second way through the grid.
+/// Ids that a few cells leave. In whole cache lines, as the first few are written many at a time and read one by one at once.
+constexpr unsigned k_room = 256;
+struct alignas(64) Ids : std::array<std::uint32_t, k_room + k_beyond_ids> {};
+
+/// What the wide kernels left of the triangles that a query came near: if `complete`, all that could stop a point on its way to a point of
+/// the path, rounded. So the verified point needs no second way through the grid and the kernels.
 struct Shortlist {
-    static constexpr unsigned k_room = 256;
-    /// With room for this many ids.
-    static constexpr unsigned k_most = 2 * k_room + k_beyond_ids;
-
-    explicit Shortlist(std::uint32_t* room) : ids(room) {}
-
-    /// For the next `k_room` ids, and for what kernels write beyond them.
-    [[nodiscard]] std::uint32_t* room() {
-        if (count > k_room) {
-            count = 0;
-            complete = false;
-        }
-        return ids + count;
+    void add(const std::uint32_t* some, unsigned number) {
+        complete = complete && count + number <= ids.size();
+        if (!complete) return;
+        for (unsigned i = 0; i < number; ++i) ids[count + i] = some[i];
+        count += number;
     }
-    /// That many have been written.
-    void take(unsigned some) { count += some; }
 
-    std::uint32_t* ids = nullptr;
+    std::array<std::uint32_t, 64> ids;
     unsigned count = 0;
     bool complete = true;
 };
-/// In whole cache lines, as the first few ids are written many at a time and read one by one at once.
-struct alignas(64) Ids : std::array<std::uint32_t, Shortlist::k_most> {};
+
+/// How far a point of the path may be off in each coordinate when it is rounded to the scalar: computed in double it is within 2^-50 of
+/// the largest coordinate of the exact one; rounded it moves by at most half a unit of that, or by half of the least denormal number,
+/// which is half a unit of the least normal one.
+template <class Scalar>
+[[nodiscard]] double rounding(const Path& path) {
+    double furthest = static_cast<double>(std::numeric_limits<Scalar>::min());
+    for (std::size_t k = 0; k < 3; ++k) furthest = std::max({furthest, std::abs(path.from[k]), std::abs(path.to[k])});
+    return furthest * (0x1p-50 + 0.5 * static_cast<double>(std::numeric_limits<Scalar>::epsilon()));
+}
+
+/// As the kernels take it: twice, as the origin of a ray may be off as well; the last factor is for what rounds here.
+template <class Scalar>
+[[nodiscard]] float noise_of(const Path& path, float scale) {
+    return static_cast<float>(rounding<Scalar>(path) * (static_cast<double>(scale) * 2.0002));
+}
 
 /// What the wide kernels ask of a segment around its start, but for the ray.
 template <class Scalar>
 [[nodiscard]] Probe<Scalar> make_probe(float scale, Sides sides, float unit) {
     Probe<Scalar> probe;
     probe.scale = scale;
-    probe.noise = 0;
     probe.ends = 1;
     probe.unit = unit;
     probe.front = sides != Sides::back ? ~0U : 0U;
@@ -55,15 +62,12 @@ template <class Scalar>
 /// Around its start.
 template <class Scalar>
 void set_ray(const Path& path, float scale, Ray<Scalar>& ray) {
-    double reach = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double d = (path.to[k] - path.from[k]) * static_cast<double>(scale);
         ray.origin[k] = static_cast<Scalar>(path.from[k]);
-        ray.direction[k] = static_cast<float>(d);
-        reach = std::max(reach, std::abs(d));
+        ray.direction[k] = static_cast<float>((path.to[k] - path.from[k]) * static_cast<double>(scale));
     }
     ray.origin[3] = 0;
-    ray.direction[3] = static_cast<float>(reach);
+    ray.direction[3] = noise_of<Scalar>(path, scale);
 }
 
 template <class Scalar>
@@ -88,25 +92,15 @@ class Search {
     /// errors are those of the cells' size and not of the path's length.
     void come_to(double fraction) {
         prepare();
-        if (probe_.ray.direction[3] > k_far) move_to(fraction);
+        const float* d = probe_.ray.direction;
+        if (std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])}) > k_far) move_to(fraction);
     }
 
     void move_to(double fraction) {
         prepare();
         for (std::size_t k = 0; k < 3; ++k)
             probe_.ray.origin[k] = static_cast<Scalar>(path.from[k] + fraction * (path.to[k] - path.from[k]));
-        probe_.noise = static_cast<float>(rounding() * static_cast<double>(scene.scale) * 1.0001);
         probe_.ends = 0;
-    }
-
-    /// How far a point of the path may be off in each coordinate when it is rounded to the scalar: computed in double it is within 2^-50 of
-    /// the largest coordinate of the exact one; rounded it moves by at most half a unit of that, or by half of the least
-    /// denormal number.
-    [[nodiscard]] double rounding() const {
-        double furthest = 0;
-        for (std::size_t k = 0; k < 3; ++k) furthest = std::max({furthest, std::abs(path.from[k]), std::abs(path.to[k])});
-        return furthest * (0x1p-50 + 0.5 * static_cast<double>(std::numeric_limits<Scalar>::epsilon())) +
-               static_cast<double>(std::numeric_limits<Scalar>::denorm_min());
     }
 
   private:

@@ -77,7 +77,7 @@ void test_triangle(const Scene<Scalar>& scene, const Path& path, std::uint32_t t
 /// (Not inlined: most short segments come near no triangle.)
 template <class Kernel, class Scalar, class Collector>
 [[gnu::noinline]] void test_triangles(Search<Scalar>& search, std::uint32_t* ids, unsigned count, const QueryOptions& options,
-                    QueryCounters& counters, Collector& collector) {
+                                       QueryCounters& counters, Collector& collector, Shortlist& list) {
     const Scene<Scalar>& scene = search.scene;
     const Probe<Scalar>& probe = search.probe(Kernel::unit);
     std::array<std::uint32_t, 64> left;
@@ -88,6 +88,7 @@ template <class Kernel, class Scalar, class Collector>
         ids += some;
         count -= some;
         for (unsigned i = 0; i < found; ++i) __builtin_prefetch(&scene.triangle_numbers[left[i]]);  // for the answer
+        list.add(left.data(), found);
         for (unsigned i = 0; i < found; ++i) test_triangle<Kernel>(scene, search.path, left[i], options, counters, collector);
     }
 }
@@ -100,22 +101,23 @@ template <class Kernel, class Scalar, class Collector>
 ///   void add()                    the hit that was written there counts
 /// `options.max_fraction` must not be NaN.
 template <class Kernel, class Scalar, class Collector>
-void traverse(Search<Scalar>& search, Near near, Shortlist& list, const QueryOptions& options, QueryCounters& counters,
-              Collector& collector) {
+void traverse(Search<Scalar>& search, Near near, Ids& ids, const QueryOptions& options, QueryCounters& counters, Collector& collector,
+              Shortlist& list) {
     const auto limit = [&] { return std::min(collector.limit(), options.max_fraction); };
-    visit_near(search, near, Collector::once, list, limit, counters, [&](std::uint32_t* ids, unsigned count) {
-        test_triangles<Kernel>(search, ids, count, options, counters, collector);
+    visit_near(search, near, Collector::once, ids, list.complete, limit, counters, [&](std::uint32_t* some, unsigned count) {
+        test_triangles<Kernel>(search, some, count, options, counters, collector, list);
     });
 }
 template <class Kernel, class Scalar, class Collector>
-void traverse(Search<Scalar>& search, Shortlist& list, const QueryOptions& options, QueryCounters& counters, Collector& collector) {
-    traverse<Kernel>(search, look_near(search.scene, search.path, 0, list, counters), list, options, counters, collector);
+void traverse(Search<Scalar>& search, const QueryOptions& options, QueryCounters& counters, Collector& collector, Shortlist& list) {
+    Ids ids;
+    const Near near = look_near(search.scene, search.path, 0, ids, counters);
+    traverse<Kernel>(search, near, ids, options, counters, collector, list);
 }
 template <class Kernel, class Scalar, class Collector>
 void traverse(Search<Scalar>& search, const QueryOptions& options, QueryCounters& counters, Collector& collector) {
-    Ids ids;
-    Shortlist list(ids.data());
-    traverse<Kernel>(search, list, options, counters, collector);
+    Shortlist unused;
+    traverse<Kernel>(search, options, counters, collector, unused);
 }
 
 }  // namespace pierce::detail

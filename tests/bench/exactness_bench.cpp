@@ -60,9 +60,7 @@ template <class Scalar>
 std::optional<Hit<Scalar>> unverified(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters) {
     Search<Scalar> search(scene, path, Sides::front);
     First<Scalar> first(scene, path, counters);
-    Ids ids;
-    Shortlist shortlist(ids.data());
-    traverse<Certified>(search, shortlist, {}, counters, first);
+    traverse<Certified>(search, {}, counters, first);
     if (!first.found()) return std::nullopt;
     const Candidate& best = first.best();
     const Corners corners = scene.corners(best.triangle);
