@@ -1,5 +1,7 @@
 // Batches are single calls, to the last bit: however the queries are stored, cut into calls, spread over threads, and under all options.
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <query/batch_world.h>
@@ -212,6 +214,46 @@ TYPED_TEST(Batches, hold_for_every_grid) {
 }
 
 // A thread starts in the arithmetic of the one that made it.
+std::array<std::uint64_t, 8> fields(const QueryCounters& c) {
+    static_assert(sizeof c == 8 * sizeof(std::uint64_t));
+    return {c.queries, c.cells, c.triangles, c.exact_decisions, c.exact_orders, c.exact_values, c.exact_sides, c.retreats};
+}
+
+// What is counted once depended on a query's neighbours: with crowded cells, on whether the list of all of them was full.
+TYPED_TEST(Batches, count_as_single_calls_do_whoever_is_beside_them) {
+    auto stadium = this->soup_;  // small and large triangles, for more than one level
+    const auto first = static_cast<std::uint32_t>(stadium.positions.size());
+    const auto hills = moved<TypeParam>(terrain(40, 0.1, 3), 1e-3, Vec3<double>::Zero());
+    stadium.positions.insert(stadium.positions.end(), hills.positions.begin(), hills.positions.end());
+    for (const IndexTriple& t : hills.triangles) stadium.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    stadium.faces.clear();
+    for (const double cell : {0.0, 0.1, 1.0, 10.0}) {
+        const CollisionMesh<TypeParam> mesh(stadium.view(), {.cell_size = cell});
+        std::vector<Segment<TypeParam>> segments = batch_segments(stadium.view(), 1500, 9);
+        const auto near = batch_segments(hills.view(), 1500, 10);
+        for (std::size_t i = 0; i < near.size(); ++i) segments.insert(segments.begin() + static_cast<std::ptrdiff_t>(2 * i), near[i]);
+        QueryCounters single;
+        for (const auto& s : segments) std::ignore = mesh.first_hit(s, {.counters = &single});
+        QueryCounters any;
+        for (const auto& s : segments) std::ignore = mesh.any_hit(s, {.counters = &any});
+        std::vector<std::optional<Hit<TypeParam>>> hits(segments.size());
+        std::vector<std::uint8_t> found(segments.size());
+        for (int order = 0; order < 3; ++order) {
+            SCOPED_TRACE(std::to_string(cell) + ", order " + std::to_string(order));
+            QueryCounters counters;
+            BatchOptions options;
+            options.counters = &counters;
+            mesh.first_hits(segments, hits, options);
+            EXPECT_EQ(fields(counters), fields(single));
+            counters = {};
+            mesh.any_hits(segments, found, options);
+            EXPECT_EQ(fields(counters), fields(any));
+            std::rotate(segments.begin(), segments.begin() + 7, segments.end());
+            if (order == 1) std::sort(segments.begin(), segments.end(), [](const auto& a, const auto& b) { return a.from[0] < b.from[0]; });
+        }
+    }
+}
+
 TYPED_TEST(Batches, hold_in_every_floating_point_environment) {
     const auto segments = this->segments(1500, 9);
     const Expected<TypeParam> expected(this->mesh_, segments, {});

@@ -1,0 +1,67 @@
+// When memory is at an end, a build throws std::bad_alloc, wherever it is and whichever part of it finds out; nothing is lost. An executable
+// of its own: it lets one call of operator new after another fail. (An exception that left a part of a build would have ended the program:
+// its executor's threads have nobody to catch it.)
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+
+#include <pierce/collision_mesh.h>
+#include <support/meshes.h>
+
+namespace {
+long left = -1;  // calls until one fails; below 0: none does
+
+void* limited(std::size_t size) {
+    if (left >= 0 && left-- == 0) throw std::bad_alloc();
+    if (void* memory = std::malloc(size != 0 ? size : 1)) return memory;
+    throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return limited(size); }
+void* operator new[](std::size_t size) { return limited(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace pierce::test {
+namespace {
+
+/// One part after the other, and none may throw: as a thread of which nobody knows.
+struct NobodyCatches {
+    void operator()(std::size_t parts, Task task) const {
+        for (std::size_t part = 0; part < parts; ++part) {
+            const auto run = [&]() noexcept { task(part); };
+            run();
+        }
+    }
+};
+
+int check() {
+    const TriangleSoup<float> soup = moved<float>(terrain(150, 0.02, 3), 1, Vec3<double>::Zero());
+    const NobodyCatches executor;
+    int thrown = 0;
+    for (long n = 0; n < 100'000; ++n) {
+        try {
+            left = n;
+            const CollisionMesh<float> mesh(soup.view(), {.executor = executor});
+            const bool all_done = left >= 0;
+            left = -1;
+            if (!all_done) continue;
+            std::printf("%d builds without enough memory threw\n", thrown);
+            return thrown > 20 && mesh.statistics().triangles == soup.triangles.size() ? 0 : 1;
+        } catch (const std::bad_alloc&) {
+            left = -1;
+            ++thrown;
+        }
+    }
+    std::puts("no build ended well");
+    return 1;
+}
+
+}  // namespace
+}  // namespace pierce::test
+
+int main() { return pierce::test::check(); }
