@@ -10,7 +10,8 @@ namespace pierce::detail {
 /// Cells of a walk that are asked for together: more use the lanes and the memory better, but go beyond the hit. Measured: tests/bench/run.
 constexpr unsigned k_most_walk = 2;
 
-/// Whether what the cells of a walk leave holds for the path's rounded points as well: they leave the line by less than half a step.
+/// Whether what the cells of a walk leave holds for the path's rounded points as well: they leave the line by less than a quarter of a step,
+/// an eighth of which is what the walk itself may be off (kernel/walk.h), of the one step that it allows for.
 template <class Scalar>
 [[nodiscard]] bool covers_points(const Path& path, const Level& level) {
     return rounding<Scalar>(path) * (4 * k_steps) < level.raster().least_size();
@@ -39,8 +40,9 @@ template <class Scalar, class Limit, class Use>
         each_triangle(search.scene, level.first_id(), ids, use);
         return true;
     }
-    if (walking == Walking::no) return false;
+    // Before all else: the way to a rounded point may come to a level that the line does not.
     complete = complete && covers_points<Scalar>(search.path, level);
+    if (walking == Walking::no) return false;
     std::array<Stop, k_most_walk> stops;
     for (;;) {
         const unsigned found = backend.walk(level.packed(), walk, limit(), stops.data(), k_most_walk);

@@ -63,7 +63,7 @@ void compare() {
     constexpr int k_rounds = 20000;
     for (int i = 0; i < k_rounds; ++i) {
         const Blades<Scalar> blades(random, std::array{0.0, 10.0, 1e3, 1e5}[random.below(4)]);
-        const CollisionMesh<Scalar> mesh(blades.soup.view(), {.cell_size = random.chance(0.5) ? 0 : random.between(0.2, 4)});
+        const CollisionMesh<Scalar> mesh(blades.soup.view(), {.cell_size = random.chance(0.5) ? 0 : std::exp(random.between(-6, 1))});
         const NaiveMesh<Scalar> naive(blades.soup.view());
         QueryCounters counters;
         BatchOptions options;
@@ -80,6 +80,59 @@ void compare() {
     EXPECT_GT(hits, k_rounds / 2);
     EXPECT_GT(retreats, 100U);
     std::cout << hits << " hits, " << retreats << " points were not free\n";
+}
+
+// A large wall across the way, in a level of its own, and in front of it a row of small triangles that begins right beside the segment; a cell of
+// theirs is six units in the last place of the coordinates. The segment passes by the box of their level, the way to its rounded point
+// does not. That level was not asked at all, and the other one's triangles were taken for all that could be in the way: one point of
+// twenty was behind the row.
+template <class Scalar>
+void pass_by_a_level(double far, double unit) {
+    Random random(3);
+    int hits = 0;
+    std::uint64_t retreats = 0;
+    for (int i = 0; i < 1000; ++i) {
+        TriangleSoup<Scalar> soup;
+        const auto point = [&](const Vec3<double>& p) -> Vec3<Scalar> { return ((p * unit).array() + far).matrix().template cast<Scalar>(); };
+        const auto add = [&](const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c) {
+            const auto first = static_cast<std::uint32_t>(soup.positions.size());
+            for (const Vec3<double>& p : {a, b, c}) soup.positions.push_back(point(p));
+            soup.triangles.push_back({first, first + 1, first + 2});
+        };
+        add({0, 0, -3}, {0, 0, 3}, {4, 4, 0});
+        add({0, 0, 3}, {0, 0, -3}, {4, 4, 0});
+        for (int x = 4; x <= 100; x += 4) add({x * 1.0, x * 1.0, -3}, {x * 1.0, x * 1.0, 3}, {x + 4.0, x + 4.0, 0});
+        const double w = random.between_ints(2, 7);
+        add({w - 400, -400, -300}, {w + 400, 400, -300}, {w + 1, 1, 500});
+        add({w + 400, 400, -300}, {w - 400, -400, -300}, {w + 1, 1, 500});
+        const CollisionMesh<Scalar> mesh(soup.view(), {.cell_size = 6 * unit});
+        ASSERT_EQ(mesh.statistics().grid_levels, 2U);
+        const NaiveMesh<Scalar> naive(soup.view());
+        for (int q = 0; q < 8; ++q) {
+            const double a = random.between_ints(20, 90);
+            const double b = random.between_ints(50, 90);
+            const Segment<Scalar> segment = {point({-a, a - random.between_ints(0, 3), random.between_ints(-2, 2) * 1.0}),
+                                             point({b, -b - random.between_ints(0, 3), random.between_ints(-2, 2) * 1.0})};
+            QueryCounters counters;
+            BatchOptions options;
+            options.sides = Sides::both;
+            options.counters = &counters;
+            const auto expected = naive.first_hit(segment, options);
+            ASSERT_TRUE(same_answer(mesh.first_hit(segment, options), expected)) << i;
+            std::array<std::optional<Hit<Scalar>>, 1> of_batch;
+            mesh.first_hits(std::span(&segment, 1), of_batch, options);
+            ASSERT_TRUE(same_answer(of_batch[0], expected)) << i;
+            hits += expected ? 1 : 0;
+            retreats += counters.retreats;
+        }
+    }
+    EXPECT_GT(hits, 4000);
+    EXPECT_GT(retreats, 100U);
+}
+
+TEST(VerifiedPoint, is_free_of_a_level_that_the_segment_passes_by) {
+    pass_by_a_level<float>(9e6, 1);
+    pass_by_a_level<float>(1e6, 0.125);
 }
 
 TEST(VerifiedPoint, is_free_of_blades_in_float) { compare<float>(); }
