@@ -46,12 +46,7 @@ struct Avx2 {
         const Float z23 = _mm256_unpackhi_ps(r2, r3);
         return {_mm256_shuffle_ps(xy01, xy23, 0x44), _mm256_shuffle_ps(xy01, xy23, 0xee), _mm256_shuffle_ps(z01, z23, 0x44)};
     }
-    static Float directions(const float* const* at, Lanes<Avx2>& d) {
-        const Float r0 = row(at, 0);
-        const Float r1 = row(at, 1);
-        const Float r2 = row(at, 2);
-        const Float r3 = row(at, 3);
-        d = columns(r0, r1, r2, r3);
+    static Float fourth(Float r0, Float r1, Float r2, Float r3) {
         return _mm256_shuffle_ps(_mm256_unpackhi_ps(r0, r1), _mm256_unpackhi_ps(r2, r3), 0xee);
     }
 

@@ -29,12 +29,7 @@ struct Neon {
         return {vcombine_f32(vget_low_f32(xz01), vget_low_f32(xz23)), vcombine_f32(vget_low_f32(y01), vget_low_f32(y23)),
                 vcombine_f32(vget_high_f32(xz01), vget_high_f32(xz23))};
     }
-    static Float directions(const float* const* at, Lanes<Neon>& d) {
-        const Float r0 = row(at, 0);
-        const Float r1 = row(at, 1);
-        const Float r2 = row(at, 2);
-        const Float r3 = row(at, 3);
-        d = columns(r0, r1, r2, r3);
+    static Float fourth(Float r0, Float r1, Float r2, Float r3) {
         return vcombine_f32(vget_high_f32(vtrn2q_f32(r0, r1)), vget_high_f32(vtrn2q_f32(r2, r3)));
     }
 

@@ -16,11 +16,6 @@ struct Plain {
     static Float min(Float x, Float y) { return x < y ? x : y; }
     static unsigned less(Float x, Float y) { return x < y ? 1 : 0; }
 
-    static Float directions(const float* const* at, Lanes<Plain>& d) {
-        d = {at[0][0], at[0][1], at[0][2]};
-        return at[0][3];
-    }
-
     static constexpr unsigned rows = 1;
     template <class Scalar>
     static const Scalar* same_row(const Scalar* x) {

@@ -33,10 +33,6 @@ struct Floats4 {
     static Float fourth(Float r0, Float r1, Float r2, Float r3) {
         return _mm_movehl_ps(_mm_unpackhi_ps(r2, r3), _mm_unpackhi_ps(r0, r1));
     }
-    static Float directions(const float* const* at, Lanes<Self>& d) {
-        d = columns(row(at, 0), row(at, 1), row(at, 2), row(at, 3));
-        return fourth(row(at, 0), row(at, 1), row(at, 2), row(at, 3));
-    }
 
     static constexpr unsigned rows = 4;
     static Float same_row(const float* x) { return _mm_setr_ps(x[0], x[1], x[2], 0); }

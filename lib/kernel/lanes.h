@@ -103,6 +103,28 @@ template <class Wide, class Scalar, class Row>
     else return Wide::columns(row(0), row(1), row(2), row(3));
 }
 
+/// Lanes without a list's entry of their own take the first one.
+template <class Wide>
+[[gnu::always_inline]] inline void fill_lanes(std::uint32_t* list, unsigned count) {
+    if (count % Wide::width == 0) return;
+    for (unsigned i = 0; i < Wide::width - 1; ++i) list[count + i] = list[0];
+}
+
+/// `may_hit` for as many triangles of a list as there are lanes; `here` of them count.
+template <class Wide, class Scalar, class Row>
+[[gnu::always_inline]] inline unsigned may_hit(const Probe<Scalar>& probe, const Lanes<Wide>& d, const typename Wide::Float& noise,
+                                               const Row* origin, const Scalar* corners, const std::uint32_t* ids, unsigned here) {
+    const Scalar* at[Wide::width];
+    for (unsigned i = 0; i < Wide::width; ++i) at[i] = corners + 9 * std::size_t{ids[i]};
+    const auto corner = [&](unsigned k) {
+        const Scalar* x[Wide::width];
+        for (unsigned i = 0; i < Wide::width; ++i) x[i] = at[i] + 3 * k;
+        return relative<Wide>(x, origin, probe.scale);
+    };
+    const unsigned lanes = may_hit<Wide>(probe, d, noise, corner(0), corner(1), corner(2));
+    return lanes & ((1U << here) - 1);
+}
+
 template <class Wide, class Scalar>
 [[gnu::always_inline]] inline unsigned refine(const Probe<Scalar>& probe, const Scalar* corners, std::uint32_t* ids, unsigned count,
                                               std::uint32_t* out) {
@@ -111,19 +133,10 @@ template <class Wide, class Scalar>
     const auto same = Wide::same_row(probe.ray.origin);
     const decltype(Wide::same_row(probe.ray.origin)) origin[] = {same, same, same, same};
     unsigned left = 0;
-    if (count % Wide::width != 0)  // lanes without a triangle of their own take the first one
-        for (unsigned i = 0; i < Wide::width - 1; ++i) ids[count + i] = ids[0];
+    fill_lanes<Wide>(ids, count);
     for (unsigned first = 0; first < count; first += Wide::width) {
-        const Scalar* at[Wide::width];
-        for (unsigned i = 0; i < Wide::width; ++i) at[i] = corners + 9 * std::size_t{ids[first + i]};
-        const auto corner = [&](unsigned k) {
-            const Scalar* x[Wide::width];
-            for (unsigned i = 0; i < Wide::width; ++i) x[i] = at[i] + 3 * k;
-            return relative<Wide>(x, origin, probe.scale);
-        };
         const unsigned here = count - first < Wide::width ? count - first : Wide::width;
-        const unsigned lanes = may_hit<Wide>(probe, d, noise, corner(0), corner(1), corner(2));
-        for (unsigned found = lanes & ((1U << here) - 1); found != 0; found &= found - 1)
+        for (unsigned found = may_hit<Wide>(probe, d, noise, origin, corners, ids + first, here); found != 0; found &= found - 1)
             out[left++] = ids[first + static_cast<unsigned>(__builtin_ctz(found))];
     }
     return left;

@@ -127,38 +127,43 @@ template <class Wide>
     return left;
 }
 
+/// The directions of some rays, a lane for each, and the fourth number of each (backend.h, Ray).
+template <class Wide>
+[[gnu::always_inline]] inline typename Wide::Float directions(const float* const* at, Lanes<Wide>& d) {
+    if constexpr (Wide::rows == 1) {
+        d = {at[0][0], at[0][1], at[0][2]};
+        return at[0][3];
+    } else {
+        const auto r0 = Wide::row(at, 0);
+        const auto r1 = Wide::row(at, 1);
+        const auto r2 = Wide::row(at, 2);
+        const auto r3 = Wide::row(at, 3);
+        d = Wide::columns(r0, r1, r2, r3);
+        return Wide::fourth(r0, r1, r2, r3);
+    }
+}
+
 /// See ScalarKernels::refine_many.
 template <class Wide, class Scalar>
 [[gnu::always_inline]] inline unsigned refine_many(const Probe<Scalar>& probe, const Ray<Scalar>* rays, const Scalar* corners,
                                                    std::uint32_t* ids, std::uint32_t* queries, unsigned count, std::uint32_t* out) {
     unsigned left = 0;
-    if (count % Wide::width != 0)  // lanes without a triangle of their own take the first one
-        for (unsigned i = 0; i < Wide::width - 1; ++i) {
-            ids[count + i] = ids[0];
-            queries[count + i] = queries[0];
-        }
+    fill_lanes<Wide>(ids, count);
+    fill_lanes<Wide>(queries, count);
     for (unsigned first = 0; first < count; first += Wide::width) {
-        const Scalar* at[Wide::width];
         const Scalar* origins[Wide::width];
-        const float* directions[Wide::width];
+        const float* ways[Wide::width];
         for (unsigned i = 0; i < Wide::width; ++i) {
             const Ray<Scalar>& ray = rays[queries[first + i]];
-            at[i] = corners + 9 * std::size_t{ids[first + i]};
             origins[i] = ray.origin;
-            directions[i] = ray.direction;
+            ways[i] = ray.direction;
         }
         decltype(Wide::row(origins, 0)) origin[Wide::rows];
         for (unsigned i = 0; i < Wide::rows; ++i) origin[i] = Wide::row(origins, i);
-        const auto corner = [&](unsigned k) {
-            const Scalar* x[Wide::width];
-            for (unsigned i = 0; i < Wide::width; ++i) x[i] = at[i] + 3 * k;
-            return relative<Wide>(x, origin, probe.scale);
-        };
-        const unsigned here = count - first < Wide::width ? count - first : Wide::width;
         Lanes<Wide> d;
-        const auto noise = Wide::directions(directions, d);
-        const unsigned lanes = may_hit<Wide>(probe, d, noise, corner(0), corner(1), corner(2));
-        for (unsigned some = lanes & ((1U << here) - 1); some != 0; some &= some - 1)
+        const auto noise = directions<Wide>(ways, d);
+        const unsigned here = count - first < Wide::width ? count - first : Wide::width;
+        for (unsigned some = may_hit<Wide>(probe, d, noise, origin, corners, ids + first, here); some != 0; some &= some - 1)
             out[left++] = first + static_cast<unsigned>(__builtin_ctz(some));
     }
     return left;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <query/answer.h>
+#include <query/engine.h>
 
 namespace pierce::detail {
 
@@ -73,11 +74,6 @@ class Group {
         return {point(ends_.from + at * ends_.from_stride), point(ends_.to + at * ends_.to_stride)};
     }
 
-    static bool is_finite(const Path& path) {
-        const auto finite = [](double x) { return std::isfinite(x); };
-        return std::all_of(path.from.begin(), path.from.end(), finite) && std::all_of(path.to.begin(), path.to.end(), finite);
-    }
-
     // Level by level, and how many each query has.
     void find_cells(std::size_t& invalid) {
         cell_count_ = 0;
@@ -93,7 +89,7 @@ class Group {
             }
         }
         for (unsigned i = 0; i < count_; ++i) {
-            if (scene_.grid.empty() && !is_finite(path_of(first_ + i))) looks_[i] = Look::invalid;
+            if (scene_.grid.empty() && !is_finite(ends_, first_ + i)) looks_[i] = Look::invalid;
             if (looks_[i] == Look::invalid) ++invalid;
         }
     }

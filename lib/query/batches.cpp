@@ -1,6 +1,5 @@
 // Batches: the queries of engine.cpp, many at once.
 #include <query/batch.h>
-#include <query/engine.h>
 
 namespace pierce::detail {
 

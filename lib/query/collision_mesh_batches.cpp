@@ -56,10 +56,9 @@ bool asks_nothing(const QueryOptions& options) {
 template <class Scalar>
 void count_only(const Ends<Scalar>& ends, std::size_t count, const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries) {
     const StandardArithmetic standard;
-    const auto finite = [](const Scalar* x) { return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]); };
     std::uint64_t invalid = 0;
-    for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(count); ++i)
-        if (!finite(ends.from + i * ends.from_stride) || !finite(ends.to + i * ends.to_stride)) ++invalid;
+    for (std::size_t i = 0; i < count; ++i)
+        if (!is_finite(ends, i)) ++invalid;
     invalid_queries.fetch_add(invalid, std::memory_order_relaxed);
     if (options.counters != nullptr) add(*options.counters, {.queries = count});
 }

@@ -3,6 +3,7 @@
 // `max_fraction` is not NaN.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,6 +21,14 @@ template <class Scalar>
 template <class Scalar>
 [[gnu::noinline]] bool any_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
                                QueryCounters& counters);
+
+/// Whether the ends of query i are numbers.
+template <class Scalar>
+[[nodiscard]] bool is_finite(const Ends<Scalar>& ends, std::size_t i) {
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    const auto finite = [](const Scalar* x) { return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]); };
+    return finite(ends.from + at * ends.from_stride) && finite(ends.to + at * ends.to_stride);
+}
 
 /// Queries `first` to `last`. Those that are not finite count as `invalid`. Returns the number of hits.
 template <class Scalar, class Answer>

@@ -1,31 +1,15 @@
 // Queries, one at a time and in batches, allocate nothing. An executable of its own: it counts every call of operator new.
 #include <atomic>
 #include <cstdio>
-#include <cstdlib>
-#include <new>
 
 #include <query/batch_world.h>
 #include <support/executors.h>
-
-namespace {
-std::atomic<std::size_t> allocations = 0;
-
-void* counted(std::size_t size) {
-    ++allocations;
-    if (void* memory = std::malloc(size != 0 ? size : 1)) return memory;
-    throw std::bad_alloc();
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size); }
-void* operator new[](std::size_t size) { return counted(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+#include <support/own_new.h>
 
 namespace pierce::test {
 namespace {
+
+std::atomic<std::size_t> allocations = 0;
 
 bool failed = false;
 
@@ -79,6 +63,9 @@ void check() {
 }
 
 }  // namespace
+
+void before_new() { ++allocations; }
+
 }  // namespace pierce::test
 
 int main() {

@@ -2,32 +2,16 @@
 // of its own: it lets one call of operator new after another fail. (An exception that left a part of a build would have ended the program:
 // its executor's threads have nobody to catch it.)
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <new>
 
 #include <pierce/collision_mesh.h>
 #include <support/meshes.h>
-
-namespace {
-long left = -1;  // calls until one fails; below 0: none does
-
-void* limited(std::size_t size) {
-    if (left >= 0 && left-- == 0) throw std::bad_alloc();
-    if (void* memory = std::malloc(size != 0 ? size : 1)) return memory;
-    throw std::bad_alloc();
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return limited(size); }
-void* operator new[](std::size_t size) { return limited(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+#include <support/own_new.h>
 
 namespace pierce::test {
 namespace {
+
+long left = -1;  // calls until one fails; below 0: none does
 
 /// One part after the other, and none may throw: as a thread of which nobody knows.
 struct NobodyCatches {
@@ -62,6 +46,11 @@ int check() {
 }
 
 }  // namespace
+
+void before_new() {
+    if (left >= 0 && left-- == 0) throw std::bad_alloc();
+}
+
 }  // namespace pierce::test
 
 int main() { return pierce::test::check(); }
