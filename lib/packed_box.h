@@ -3,6 +3,10 @@
 
 #include <cstdint>
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 #include <packed_level.h>
 
 namespace pierce::detail {
@@ -20,37 +24,44 @@ constexpr int k_margin = 1;
 
 namespace packing {
 
-[[nodiscard]] inline Ints within(const Ints& x, int most) {
-    const Ints least = {0, 0, 0, 0};
-    const Ints greatest = {most, most, most, most};
-    const Ints above = x > least ? x : least;
-    return above < greatest ? above : greatest;
+#if defined(__SSE2__)
+/// Bytes 0-2: three numbers, cut to the range from 0 to `most`; bytes 4-6: three more, negated. The other two are 0. Eight bytes at once, as
+/// packing saturates: half the time of a fill.
+[[nodiscard]] inline std::uint64_t bytes(const Ints& low, const Ints& high, short most) {
+    const short least = static_cast<short>(-most);
+    const __m128i both = _mm_packs_epi32(reinterpret_cast<__m128i>(low), reinterpret_cast<__m128i>(-high));
+    const __m128i above = _mm_max_epi16(both, _mm_setr_epi16(0, 0, 0, 0, least, least, least, 0));
+    const __m128i within = _mm_min_epi16(above, _mm_setr_epi16(most, most, most, 0, 0, 0, 0, 0));
+    return static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm_packs_epi16(within, within)));
 }
-using Halves [[gnu::vector_size(16)]] = std::uint64_t;
-
-// The low bytes of four numbers; two at a time, as baseline machines have no instruction for it.
-[[nodiscard]] inline std::uint64_t bytes(const Ints& x) {
-    const Ints byte = {0xff, 0xff, 0xff, 0xff};
-    const auto halves = reinterpret_cast<Halves>(x & byte);
-    const auto two = [](std::uint64_t half) { return (half | half >> 24) & 0xffff; };
-    return two(halves[0]) | two(halves[1]) << 16;
-}
-// Bit k set where number k is not 0, for masks.
+/// Bit k set where mask k is, for three masks.
 [[nodiscard]] inline std::uint64_t bits(const Ints& mask) {
-    const Ints bit = {1, 2, 4, 0};
-    const auto halves = reinterpret_cast<Halves>(mask & bit);
-    return (halves[0] | halves[0] >> 32 | halves[1]) & 7;
+    return static_cast<std::uint64_t>(_mm_movemask_ps(reinterpret_cast<__m128>(mask))) & 7;
 }
+#else
+[[nodiscard]] inline std::uint64_t bytes(const Ints& low, const Ints& high, int most) {
+    std::uint64_t packed = 0;
+    for (int k = 0; k < 3; ++k) {
+        const auto within = [&](int x) { return x < 0 ? 0 : x < most ? x : most; };
+        packed |= static_cast<std::uint64_t>(within(low[k])) << 8 * k;
+        packed |= static_cast<std::uint64_t>(-within(high[k]) & 0xff) << 8 * (k + 4);
+    }
+    return packed;
+}
+[[nodiscard]] inline std::uint64_t bits(const Ints& mask) {
+    return (mask[0] != 0 ? 1 : 0) | (mask[1] != 0 ? 2 : 0) | (mask[2] != 0 ? 4 : 0);
+}
+#endif
 
 }  // namespace packing
 
 /// The part of a box in a cell, given by its place in cells; the fourth number is 0.
 [[nodiscard]] inline PackedBox pack(const Steps& box, const Ints& cell) {
-    const Ints low = box.low - cell * k_steps;
-    const Ints high = box.high - cell * k_steps;
-    const std::uint64_t lower = packing::bytes(packing::within(low, k_steps - 1)) | packing::bits(low < k_margin) << 24;
-    const std::uint64_t upper = packing::bytes(-packing::within(high, k_steps - 1)) | packing::bits(high >= k_steps - k_margin) << 24;
-    return lower | upper << 32;
+    const Ints corner = cell << k_step_bits;
+    const Ints low = box.low - corner;
+    const Ints high = box.high - corner;
+    const std::uint64_t flags = packing::bits(low < k_margin) << 24 | packing::bits(high >= k_steps - k_margin) << 56;
+    return packing::bytes(low, high, k_steps - 1) | flags;
 }
 
 }  // namespace pierce::detail

@@ -27,8 +27,10 @@ constexpr double k_next_level = 1 << k_next_level_bits;
 constexpr double k_largest_box = 1.3;
 constexpr std::size_t k_most_levels = 24;
 constexpr double k_finest = 0x1p24;       ///< cells at the usual size are this many times as wide as those of the finest level
-constexpr double k_crowded = 1000;        ///< see crowd()
+constexpr double k_crowded = 1000;        ///< see crowded()
 constexpr double k_most_extra = 3;        ///< entries for each triangle that is there already, rather than a level more
+
+constexpr std::size_t k_some = 4096;      ///< boxes that are looked at where it is the usual one that counts
 
 template <class Scalar>
 double extent(const PlainBox<Scalar>& box) {
@@ -40,7 +42,7 @@ double extent(const PlainBox<Scalar>& box) {
 template <class Scalar>
 double usual_extent(std::span<const PlainBox<Scalar>> boxes) {
     std::vector<double> some;
-    const std::size_t stride = std::max<std::size_t>(1, boxes.size() / 4096);
+    const std::size_t stride = std::max<std::size_t>(1, boxes.size() / k_some);
     for (std::size_t i = 0; i < boxes.size(); i += stride)
         if (boxes[i].listed()) some.push_back(extent(boxes[i]));
     if (some.empty()) return 0;
@@ -136,7 +138,7 @@ Shares share_out(std::span<const PlainBox<Scalar>> boxes, double finest, const E
 void sort_by_key(RawArray<std::uint32_t>& keys, RawArray<std::uint32_t>& numbers, const Executor& executor) {
     constexpr int k_bits = 11;
     constexpr std::size_t k_digits = std::size_t{1} << k_bits;
-    const std::size_t part = std::max<std::size_t>(std::size_t{1} << 15, keys.size() / 16 + 1);
+    const std::size_t part = std::max<std::size_t>(std::size_t{1} << 13, keys.size() / 16 + 1);
     const std::size_t parts = chunks_of(keys.size(), part);
     RawArray<std::uint32_t> other_keys(keys.size());
     RawArray<std::uint32_t> other_numbers(numbers.size());
@@ -169,24 +171,27 @@ void sort_by_key(RawArray<std::uint32_t>& keys, RawArray<std::uint32_t>& numbers
     }
 }
 
-/// How many of the boxes share a cell of a size with the average one of them, by their lower corners. (Cells that share a place of the table
-/// count as one.)
+/// Whether many of the boxes share a cell of a size with the average one of them: of some of them, by their lower corners. (Cells that share
+/// a place of the table count as one.)
 template <class Scalar>
-double crowd(const Share& share, std::span<const PlainBox<Scalar>> boxes, double cell) {
-    const std::size_t places = std::bit_ceil(2 * share.ids.size());
+bool crowded(const Share& share, std::span<const PlainBox<Scalar>> boxes, double cell) {
+    if (static_cast<double>(share.ids.size()) < k_crowded) return false;
+    const std::size_t stride = (share.ids.size() - 1) / k_some + 1;
+    const std::size_t some = (share.ids.size() - 1) / stride + 1;
+    const std::size_t places = std::bit_ceil(2 * some);
     std::vector<std::uint32_t> counts(places, 0);
     const Raster raster(share.box, cell);
-    double sum = 0;
-    for (const std::uint32_t id : share.ids) {
+    double pairs = 0;
+    for (std::size_t i = 0; i < share.ids.size(); i += stride) {
+        const std::uint32_t id = share.ids[i];
         const std::array<int, 3> at = raster.cell_of(raster.steps(boxes[id].low, boxes[id].high).low);
         const std::uint64_t key = static_cast<std::uint64_t>(at[0]) << 42 | static_cast<std::uint64_t>(at[1]) << 21 |
                                   static_cast<std::uint64_t>(at[2]);
         // Fibonacci hashing (Knuth, volume 3, 6.4).
-        std::uint32_t& count = counts[(key * 0x9e3779b97f4a7c15) >> 20 & (places - 1)];
-        sum += 2 * count + 1;  // (n + 1)^2 - n^2
-        ++count;
+        pairs += counts[(key * 0x9e3779b97f4a7c15) >> 20 & (places - 1)]++;
     }
-    return sum / static_cast<double>(share.ids.size());
+    // Each box is in two lists of pairs, and shares its cell with as many times more as there are more boxes.
+    return 2 * pairs / static_cast<double>(some) * static_cast<double>(stride) >= k_crowded;
 }
 
 /// About how many cells of a size the boxes of a level would be listed in.
@@ -240,7 +245,10 @@ Level build_level(const Box& box, RawArray<std::uint32_t>& ids, std::uint32_t fi
         // Beyond the range of a double no cells are larger.
         const bool largest = raster.cells() == std::array<int, 3>{1, 1, 1} || !(size < 0x1p1023);
         each_chunk(executor, steps.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) steps[i] = raster.steps(boxes[ids[i]].low, boxes[ids[i]].high);
+            for (std::size_t i = begin; i < end; ++i) {
+                __builtin_prefetch(&boxes[ids[std::min(i + k_ahead, end - 1)]]);
+                steps[i] = raster.steps(boxes[ids[i]].low, boxes[ids[i]].high);
+            }
         });
         LevelBuilder builder(raster, first, std::span<const Steps>(steps.data(), steps.size()), executor);
         // 16 bytes a reference: a start for each cell that lists something, and there are at most as many of these. For roots, see
@@ -275,7 +283,7 @@ Grid::Grid(std::span<const PlainBox<Scalar>> boxes, const GridOptions& options, 
         double coarser_cell = cell * k_next_level;
         for (; coarser < k_most_levels && shares[coarser].ids.empty(); ++coarser) coarser_cell *= k_next_level;
         if (coarser == k_most_levels || options.cell_size > 0) break;
-        if (crowd(shares[level], boxes, coarser_cell) < k_crowded) shares[coarser].take(shares[level]);
+        if (!crowded(shares[level], boxes, coarser_cell)) shares[coarser].take(shares[level]);
     }
     cell = finest;
     std::size_t finer = k_most_levels;

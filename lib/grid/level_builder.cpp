@@ -14,7 +14,7 @@ namespace pierce::detail {
 namespace {
 
 // Enough for a slab's counters to stay in the second-level cache, and for slabs to share among threads.
-constexpr std::size_t k_boxes_a_slab = 4096;
+constexpr std::size_t k_boxes_a_slab = 2048;
 constexpr std::size_t k_most_slabs = 2048;  ///< each chunk of boxes has 12 bytes for each: 3 a box
 
 }  // namespace
@@ -26,6 +26,7 @@ LevelBuilder::LevelBuilder(const Raster& raster, std::uint32_t first, std::span<
     const auto wanted = static_cast<int>(std::clamp<std::size_t>(boxes.size() / k_boxes_a_slab, 1, k_most_slabs));
     layers_ = std::max(1, roots_[slow_] / wanted);
     slabs_ = static_cast<std::size_t>((roots_[slow_] + layers_ - 1) / layers_);
+    for (int root = 0; root < roots_[slow_]; ++root) slab_of_root_.push_back(static_cast<std::uint32_t>(root / layers_));
     count_slabs();
 }
 
@@ -107,7 +108,8 @@ void LevelBuilder::each_cell(const Cells& cells, Visit&& visit) const {
             for (int x = cells.first[0]; x <= cells.last[0]; ++x) visit(x, y, z);
 }
 
-void LevelBuilder::fill_slab(Level& level, std::size_t slab, std::vector<std::uint32_t>& starts) const {
+// Returns where each of its cells starts.
+RawArray<std::uint32_t> LevelBuilder::fill_slab(Level& level, std::size_t slab) const {
     const int first_layer = static_cast<int>(slab) * layers_;
     const int last_layer = std::min(first_layer + layers_, roots_[slow_]);
     const std::size_t first_brick = static_cast<std::size_t>(first_layer) * strides_[slow_];
@@ -130,29 +132,43 @@ void LevelBuilder::fill_slab(Level& level, std::size_t slab, std::vector<std::ui
             visit(place(0, x) + place(1, y) + place(2, z) - first_brick * 64, Ints{x, y, z, 0});
         });
     };
-    const std::span<const std::uint32_t> mine(sorted_.data() + slab_starts_[slab], slab_starts_[slab + 1] - slab_starts_[slab]);
-    for (const std::uint32_t i : mine) cells_in_slab(boxes_[i], [&](std::size_t cell, const Ints&) { ++next[cell]; });
+    struct Entry {
+        PackedBox box;
+        std::uint32_t id;
+        std::uint32_t cell;
+    };
+    RawArray<Entry> entries(reference_starts_[slab + 1] - reference_starts_[slab]);
+    Entry* entry = entries.data();
+    Node* const bricks = &level.nodes_[first_brick];
+    for (std::uint32_t s = slab_starts_[slab]; s < slab_starts_[slab + 1]; ++s) {
+        const Steps& box = boxes_[sorted_[s]];
+        cells_in_slab(box, [&](std::size_t at, const Ints& cell) {
+            ++next[at];
+            bricks[at / 64].parts |= std::uint64_t{1} << at % 64;
+            *entry++ = {pack(box, cell), first_ + sorted_[s], static_cast<std::uint32_t>(at)};
+        });
+    }
 
+    std::uint32_t cells = 0;
+    for (std::size_t b = 0; b < brick_count; ++b) {
+        bricks[b].first = cells;
+        cells += Level::count_bits(bricks[b].parts);
+    }
+    RawArray<std::uint32_t> starts(cells);
+    std::uint32_t* start = starts.data();
     std::uint32_t sum = reference_starts_[slab];
     for (std::size_t b = 0; b < brick_count; ++b) {
-        Node& brick = level.nodes_[first_brick + b];
-        brick.first = static_cast<std::uint32_t>(starts.size());
-        for (std::size_t bit = 0; bit < 64; ++bit) {
-            std::uint32_t& cell = next[b * 64 + bit];
-            if (cell == 0) continue;
-            brick.parts |= std::uint64_t{1} << bit;
-            starts.push_back(sum);
-            const std::uint32_t count = cell;
-            cell = sum;
-            sum += count;
+        for (std::uint64_t parts = bricks[b].parts; parts != 0; parts &= parts - 1) {
+            *start++ = sum;
+            sum += std::exchange(next[b * 64 + static_cast<std::size_t>(std::countr_zero(parts))], sum);
         }
     }
-    for (const std::uint32_t i : mine)
-        cells_in_slab(boxes_[i], [&](std::size_t at, const Ints& cell) {
-            const std::uint32_t to = next[at]++;
-            level.boxes_[to] = pack(boxes_[i], cell);
-            level.ids_[to] = first_ + i;
-        });
+    for (const Entry& some : entries) {
+        const std::uint32_t to = next[some.cell]++;
+        level.boxes_[to] = some.box;
+        level.ids_[to] = some.id;
+    }
+    return starts;
 }
 
 // The distance in the maximum norm to the nearest root that is not empty (Rosenfeld and Pfaltz 1966: two passes, each from the
@@ -189,8 +205,8 @@ void LevelBuilder::measure_empty_space(Level& level) const {
 }
 
 void LevelBuilder::build_dense(Level& level) const {
-    std::vector<std::vector<std::uint32_t>> starts(slabs_);
-    executor_(slabs_, [&](std::size_t slab) { fill_slab(level, slab, starts[slab]); });
+    std::vector<RawArray<std::uint32_t>> starts(slabs_);
+    executor_(slabs_, [&](std::size_t slab) { starts[slab] = fill_slab(level, slab); });
     std::size_t before = 0;
     for (std::size_t slab = 0; slab < slabs_; ++slab) {
         if (before != 0) {

@@ -32,7 +32,7 @@ class LevelBuilder {
         const Ints high = (box.high + margin) >> k_step_bits;
         return {(low > zero ? low : zero) >> k_step_bits, high < last_cell_ ? high : last_cell_};
     }
-    [[nodiscard]] int slab_of(int cell) const { return (cell >> root_shift_) / layers_; }
+    [[nodiscard]] int slab_of(int cell) const { return static_cast<int>(slab_of_root_[static_cast<std::size_t>(cell >> root_shift_)]); }
     void count_slabs();
     void sort_by_slab();
     void place_roots();
@@ -40,7 +40,7 @@ class LevelBuilder {
     void each_box(Visit&& visit) const;
     void build_dense(Level& level) const;
     void build_sparse(Level& level) const;
-    void fill_slab(Level& level, std::size_t slab, std::vector<std::uint32_t>& starts) const;
+    [[nodiscard]] RawArray<std::uint32_t> fill_slab(Level& level, std::size_t slab) const;
     void measure_empty_space(Level& level) const;
     template <class Visit>
     void each_cell(const Cells& cells, Visit&& visit) const;
@@ -56,6 +56,7 @@ class LevelBuilder {
     std::size_t slow_ = 2;     ///< the axis with the most roots: slabs are cut across it
     int layers_ = 1;           ///< of bricks to a slab
     std::size_t slabs_ = 1;
+    std::vector<std::uint32_t> slab_of_root_;
     std::size_t references_ = 0;
     std::vector<std::uint32_t> slab_starts_;       ///< in `sorted_`
     std::vector<std::uint32_t> chunk_starts_;      ///< the same for each chunk of boxes and slab in it

@@ -45,7 +45,7 @@ RawArray<PlainBox<Scalar>> make_boxes(const MeshView<Scalar>& mesh, const Execut
     return boxes;
 }
 
-// Copies the mesh in the order of the grid.
+// Copies the mesh in the order of the grid, which is not its own: what comes next is asked of memory before.
 template <class Scalar>
 void copy_in_order(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const Executor& executor) {
     const std::size_t count = mesh.triangles.size();
@@ -54,7 +54,10 @@ void copy_in_order(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const Exe
     scene.coordinates[9 * count] = 0;
     each_chunk(executor, count, [&](std::size_t, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const IndexTriple& t = mesh.triangles[scene.triangle_numbers[i]];
+            const auto triangle = [&](std::size_t at) -> const IndexTriple& { return mesh.triangles[scene.triangle_numbers[std::min(at, end - 1)]]; };
+            __builtin_prefetch(&triangle(i + 2 * k_ahead));
+            for (const std::uint32_t vertex : triangle(i + k_ahead)) __builtin_prefetch(&mesh.positions[vertex]);
+            const IndexTriple& t = triangle(i);
             scene.triangles[i] = t;
             Scalar* to = &scene.coordinates[9 * i];
             for (const std::uint32_t vertex : t) {

@@ -32,10 +32,21 @@ class Threads {
         work_->busy = static_cast<int>(others_.size());
         work_->wake();
         work_->take();
-        for (int busy = work_->busy; busy > 0; busy = work_->busy) work_->busy.wait(busy);
+        for (int busy = work_->busy; busy > 0; busy = work_->busy) wait_while(work_->busy, busy);
     }
 
   private:
+    // A build calls some ten times within a few milliseconds: as job systems do, threads look for work for a while before they sleep.
+    template <class Value>
+    static void wait_while(const std::atomic<Value>& value, Value old) {
+        constexpr int k_looks = 5000;
+        for (int look = 0; look < k_looks; ++look) {
+            if (value != old) return;
+            __builtin_ia32_pause();
+        }
+        value.wait(old);
+    }
+
     struct Work {
         std::optional<Task> task;
         std::size_t parts = 0;
@@ -52,7 +63,7 @@ class Threads {
         }
         void serve(const std::stop_token& stop) {
             for (std::uint64_t seen = 0;;) {
-                calls.wait(seen);
+                wait_while(calls, seen);
                 seen = calls;
                 if (stop.stop_requested()) return;
                 take();
