@@ -25,8 +25,16 @@ struct Cull {
 struct Node {
     std::uint64_t parts = 0;  ///< bit x + 4 y + 16 z
     std::uint32_t first = 0;  ///< of a brick: how many non-empty cells come before its own; else the place of its first child
-    std::uint32_t empty = 0;  ///< of a root without parts: roots less than this away, in the maximum norm, have none either
 };
+
+/// A layer above the roots: which of 4 x 4 x 4 of the layer below hold anything, for all of its places.
+struct Top {
+    const std::uint64_t* parts = nullptr;
+    std::uint32_t strides[4] = {0, 0, 0, 0};
+};
+
+/// Layers of the tree, of four by four by four, that 2^20 cells along an axis need.
+constexpr int k_most_layers = 10;
 
 /// See grid/level.h. The arrays have a fourth entry, so that four lanes can be read: it is 0, and 1 for `most`.
 struct PackedLevel {
@@ -38,8 +46,10 @@ struct PackedLevel {
     const std::uint32_t* starts = nullptr;
     const PackedBox* boxes = nullptr;
     const std::uint32_t* ids = nullptr;
+    const Top* tops = nullptr;         ///< from the one above the roots to one of a single place
     int cells[4] = {1, 1, 1, 1};
     int root_shift = 2;                ///< a root is of 2^root_shift cells along each axis
+    int top_count = 0;
 };
 
 /// Where a query has come to: a cell that holds something, and which boxes it is to leave there.
@@ -59,21 +69,30 @@ struct Boxes {
     Cull cull;
 };
 
+/// A node of the tree that a walk is in, and which of its parts it has yet to see. Mirrored where the line goes down an axis, so that it
+/// always goes up.
+struct Turn {
+    std::uint64_t parts;   ///< not mirrored
+    std::uint64_t left;
+    std::uint32_t first;   ///< as in Node
+    int corner[4];         ///< its lowest, in cells
+};
+
 /// A segment on its way through a level (kernel/walk.h), all in cells. The arrays have a fourth entry for the lanes.
 struct Walk {
-    double from[4] = {0, 0, 0, 0};  ///< the place at fraction s is from + s d
-    double d[4] = {0, 0, 0, 0};
-    double inverse[4];
-    double bias[4];
-    double wall[4];                 ///< the next one along each axis
-    double leave[4];                ///< the fraction at which it is reached
-    double enter;                   ///< at which the line has come into the cell
+    double from[4];         ///< the place at fraction s is from + s d
+    double d[4];
+    double origin[4];       ///< from, mirrored
+    double inverse[4];      ///< fractions for a cell along each axis
+    double first;           ///< fractions of the line that are in the level
     double last;
-    std::uint64_t unseen;           ///< of the cell: `Cull::seen` for the boxes that the one before lists, too
-    int cell[4] = {0, 0, 0, 0};
-    int step[4];                    ///< -1, 0 or 1
+    std::uint64_t flips[3]; ///< for each axis all bits if it is mirrored
+    int mirror[4];          ///< -1 if it is mirrored, else 0
+    int flip;               ///< what a mirrored part's place differs in
+    int shift;              ///< a part of the first node is of 2^shift cells along each axis
+    int depth;              ///< of the node that the walk is in, below the first; -1 at the end
     bool once;
-    bool over;
+    Turn turns[k_most_layers + 1];
 };
 
 /// `never`: the segment is too long to be followed.

@@ -68,6 +68,7 @@ class Level {
     [[nodiscard]] std::size_t reference_count() const { return references_; }
     [[nodiscard]] std::size_t bytes() const {
         return nodes_.capacity() * sizeof(Node) + starts_.capacity() * sizeof(std::uint32_t) +
+               top_parts_.capacity() * sizeof(std::uint64_t) + tops_.capacity() * sizeof(Top) +
                (references_ + k_beyond) * (sizeof(PackedBox) + sizeof(std::uint32_t));
     }
 
@@ -80,6 +81,8 @@ class Level {
     Raster raster_;
     PackedLevel packed_;  ///< points into the rest
     std::vector<Node> nodes_;
+    std::vector<std::uint64_t> top_parts_;
+    std::vector<Top> tops_;
     std::vector<std::uint32_t> starts_;
     RawArray<PackedBox> boxes_;
     RawArray<std::uint32_t> ids_;

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include <chunks.h>
+#include <grid/sort_by_key.h>
 
 namespace pierce::detail {
 
@@ -171,36 +171,52 @@ RawArray<std::uint32_t> LevelBuilder::fill_slab(Level& level, std::size_t slab) 
     return starts;
 }
 
-// The distance in the maximum norm to the nearest root that is not empty (Rosenfeld and Pfaltz 1966: two passes, each from the
-// neighbours that the pass has seen).
-void LevelBuilder::measure_empty_space(Level& level) const {
-    constexpr std::uint32_t k_far = 1U << 20;
-    const std::size_t count = strides_[slow_] * static_cast<std::size_t>(roots_[slow_]);
-    for (std::size_t i = 0; i < count; ++i) level.nodes_[i].empty = level.nodes_[i].parts != 0 ? 0 : k_far;
-    for (const int way : {1, -1}) {
-        Cell b{};
-        const auto each = [&](std::size_t k, auto&& body) {
-            for (int i = 0; i < roots_[k]; ++i) {
-                b[k] = way > 0 ? i : roots_[k] - 1 - i;
-                body();
-            }
-        };
-        const auto node = [&](const Cell& at) -> Node& {
-            return level.nodes_[static_cast<std::size_t>(at[0]) * strides_[0] + static_cast<std::size_t>(at[1]) * strides_[1] +
-                                static_cast<std::size_t>(at[2]) * strides_[2]];
-        };
-        each(2, [&] { each(1, [&] { each(0, [&] {
-            std::uint32_t& empty = node(b).empty;
-            if (empty == 0) return;
-            for (int dz = -1; dz <= 0; ++dz)
-                for (int dy = -1; dy <= (dz < 0 ? 1 : 0); ++dy)
-                    for (int dx = -1; dx <= (dz < 0 || dy < 0 ? 1 : -1); ++dx) {
-                        const Cell n = {b[0] + way * dx, b[1] + way * dy, b[2] + way * dz};
-                        bool inside = true;
-                        for (std::size_t k = 0; k < 3; ++k) inside = inside && n[k] >= 0 && n[k] < roots_[k];
-                        if (inside) empty = std::min(empty, node(n).empty + 1);
-                    }
-        }); }); });
+// Each layer of the one below it, from the roots on.
+void LevelBuilder::build_tops(Level& level) const {
+    struct Layer {
+        std::array<int, 3> size;
+        std::size_t first;
+    };
+    std::vector<Layer> layers;
+    std::size_t count = 0;
+    for (std::array<int, 3> size = roots_; size != std::array<int, 3>{1, 1, 1};) {
+        std::size_t places = 1;
+        for (int& n : size) {
+            n = ((n - 1) >> 2) + 1;
+            places *= static_cast<std::size_t>(n);
+        }
+        layers.push_back({size, count});
+        count += places;
+    }
+    level.top_parts_.assign(count, 0);
+    const auto mark = [&](const Layer& layer, const Cell& part) {
+        const std::size_t place = static_cast<std::size_t>(part[0] >> 2) +
+                                  static_cast<std::size_t>(layer.size[0]) * (static_cast<std::size_t>(part[1] >> 2) +
+                                  static_cast<std::size_t>(layer.size[1]) * static_cast<std::size_t>(part[2] >> 2));
+        level.top_parts_[layer.first + place] |= Level::bit_of(part);
+    };
+    const auto each = [](const std::array<int, 3>& size, auto&& visit) {
+        for (int z = 0; z < size[2]; ++z)
+            for (int y = 0; y < size[1]; ++y)
+                for (int x = 0; x < size[0]; ++x) visit(Cell{x, y, z});
+    };
+    for (std::size_t l = 0; l < layers.size(); ++l) {
+        if (l == 0) {
+            each(roots_, [&](const Cell& at) {
+                const std::size_t root = static_cast<std::size_t>(at[0]) * strides_[0] + static_cast<std::size_t>(at[1]) * strides_[1] +
+                                         static_cast<std::size_t>(at[2]) * strides_[2];
+                if (level.nodes_[root].parts != 0) mark(layers[0], at);
+            });
+        } else {
+            const std::uint64_t* parts = &level.top_parts_[layers[l - 1].first];
+            each(layers[l - 1].size, [&](const Cell& at) {
+                if (*parts++ != 0) mark(layers[l], at);
+            });
+        }
+        const auto stride = [&](std::size_t n) { return static_cast<std::uint32_t>(n); };  // of fewer places than roots
+        const auto wide = static_cast<std::size_t>(layers[l].size[0]);
+        level.tops_.push_back({&level.top_parts_[layers[l].first],
+                               {stride(1), stride(wide), stride(wide * static_cast<std::size_t>(layers[l].size[1])), 0}});
     }
 }
 
@@ -239,11 +255,18 @@ void LevelBuilder::build_sparse(Level& level) const {
                                        std::countr_zero(Level::bit_of({cell[0] >> shift, cell[1] >> shift, cell[2] >> shift})));
             references.push_back({path, i, Ints{x, y, z, 0}});
         });
-    std::sort(references.begin(), references.end(),
-              [](const Reference& x, const Reference& y) { return std::tie(x.path, x.box) < std::tie(y.path, y.box); });
+    // By the lower half of the path, then by the upper one; stably, so that those of a cell stay in the order of the boxes.
+    RawArray<std::uint32_t> keys(references.size());
+    RawArray<std::uint32_t> order(references.size());
+    std::iota(order.begin(), order.end(), 0U);
+    for (const int half : {0, 32}) {
+        for (std::size_t r = 0; r < keys.size(); ++r) keys[r] = static_cast<std::uint32_t>(references[order[r]].path >> half);
+        sort_by_key(keys, order, executor_);
+    }
     for (std::uint32_t r = 0; r < references.size(); ++r) {
-        level.boxes_[r] = pack(boxes_[references[r].box], references[r].cell);
-        level.ids_[r] = first_ + references[r].box;
+        const Reference& reference = references[order[r]];
+        level.boxes_[r] = pack(boxes_[reference.box], reference.cell);
+        level.ids_[r] = first_ + reference.box;
     }
 
     // From the bricks up: those of a layer by their paths.
@@ -252,13 +275,14 @@ void LevelBuilder::build_sparse(Level& level) const {
         Node node;
     };
     const auto join = [](std::vector<Branch>& branches, std::uint64_t path, std::size_t child) {
-        if (branches.empty() || branches.back().path != path >> 6) branches.push_back({path >> 6, {0, static_cast<std::uint32_t>(child), 0}});
+        if (branches.empty() || branches.back().path != path >> 6) branches.push_back({path >> 6, {0, static_cast<std::uint32_t>(child)}});
         branches.back().node.parts |= std::uint64_t{1} << (path & 63);
     };
     std::vector<std::vector<Branch>> layers(1);
     for (std::size_t r = 0; r < references.size(); ++r) {
-        if (r > 0 && references[r].path == references[r - 1].path) continue;
-        join(layers[0], references[r].path, level.starts_.size());
+        const std::uint64_t path = references[order[r]].path;
+        if (r > 0 && path == references[order[r - 1]].path) continue;
+        join(layers[0], path, level.starts_.size());
         level.starts_.push_back(static_cast<std::uint32_t>(r));
     }
     for (int shift = 2; shift < root_shift_; shift += 2) {
@@ -295,7 +319,7 @@ Level LevelBuilder::build() {
         build_sparse(level);
     }
     level.starts_.push_back(static_cast<std::uint32_t>(references_));
-    measure_empty_space(level);
+    build_tops(level);
     for (std::size_t k = 0; k < 3; ++k) {
         level.packed_.half_low[k] = raster_.half_low(k);
         level.packed_.scale[k] = raster_.scale(k);
@@ -308,6 +332,8 @@ Level LevelBuilder::build() {
     level.packed_.boxes = level.boxes_.data();
     level.packed_.ids = level.ids_.data();
     level.packed_.root_shift = root_shift_;
+    level.packed_.tops = level.tops_.data();
+    level.packed_.top_count = static_cast<int>(level.tops_.size());
     return level;
 }
 

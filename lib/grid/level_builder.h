@@ -41,7 +41,7 @@ class LevelBuilder {
     void build_dense(Level& level) const;
     void build_sparse(Level& level) const;
     [[nodiscard]] RawArray<std::uint32_t> fill_slab(Level& level, std::size_t slab) const;
-    void measure_empty_space(Level& level) const;
+    void build_tops(Level& level) const;
     template <class Visit>
     void each_cell(const Cells& cells, Visit&& visit) const;
 

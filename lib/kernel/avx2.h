@@ -31,6 +31,7 @@ struct Avx2 {
     using Float = __m256;
 
     static Float all(float x) { return _mm256_set1_ps(x); }
+    static Float load(const float* x) { return _mm256_loadu_ps(x); }
     static Float abs(Float x) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), x); }
     static Float max(Float x, Float y) { return _mm256_max_ps(x, y); }
     static Float min(Float x, Float y) { return _mm256_min_ps(x, y); }

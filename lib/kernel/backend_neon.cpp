@@ -13,6 +13,7 @@ struct Neon {
     using Float = float32x4_t;
 
     static Float all(float x) { return vdupq_n_f32(x); }
+    static Float load(const float* x) { return vld1q_f32(x); }
     static Float abs(Float x) { return vabsq_f32(x); }
     static Float max(Float x, Float y) { return vmaxq_f32(x, y); }
     static Float min(Float x, Float y) { return vminq_f32(x, y); }

@@ -11,6 +11,7 @@ struct Plain {
     using Float = float;
 
     static Float all(float x) { return x; }
+    static Float load(const float* x) { return *x; }
     static Float abs(Float x) { return x < 0 ? -x : x; }
     static Float max(Float x, Float y) { return x > y ? x : y; }
     static Float min(Float x, Float y) { return x < y ? x : y; }

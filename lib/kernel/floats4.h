@@ -17,6 +17,7 @@ struct Floats4 {
     using Float = __m128;
 
     static Float all(float x) { return _mm_set1_ps(x); }
+    static Float load(const float* x) { return _mm_loadu_ps(x); }
     static Float abs(Float x) { return _mm_andnot_ps(_mm_set1_ps(-0.0F), x); }
     static Float max(Float x, Float y) { return _mm_max_ps(x, y); }
     static Float min(Float x, Float y) { return _mm_min_ps(x, y); }

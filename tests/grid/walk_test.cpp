@@ -202,6 +202,67 @@ TEST(Walk, misses_no_box_at_the_border_of_the_grid) {
     }
 }
 
+// Segments along the walls of cells, of bricks and of larger nodes, and just beside them, and boxes that end there: what is in one cell and
+// what in its neighbour is then a matter of rounding.
+TEST(Walk, misses_no_box_at_the_walls_of_cells) {
+    Random random(6);
+    std::size_t met = 0;
+    for (int i = 0; i < 60; ++i) {
+        const double size = std::ldexp(1.0, random.between_ints(-30, 30));
+        const double offset = random.chance(0.5) ? 0 : random.between(-1e4, 1e4) * size;
+        const int cells = 1 << random.between_ints(2, 7);
+        Boxes boxes;
+        for (const double x : {offset, offset + (cells - 1) * size}) boxes.push_back({{x, x, x}, {x, x, x}});
+        Raster raster;
+        {
+            const Grid grid = grid_of(boxes, size);
+            ASSERT_EQ(grid.levels().size(), 1U);
+            raster = grid.levels()[0].raster();
+        }
+        const auto near_wall = [&](std::size_t k) {
+            const int every = 1 << 2 * random.between_ints(0, 3);  // walls of larger nodes more often than they are among all
+            const int wall = random.between_ints(1, std::max(1, (cells - 1) / every)) * every;
+            const double beside = random.chance(0.5) ? 0 : random.between(-1, 1) * std::ldexp(1.0, -random.between_ints(1, 50));
+            const double x = 2 * (raster.half_low(k) + (std::min(wall, cells - 1) + beside) * k_steps / raster.scale(k));
+            return std::clamp(x, offset, offset + (cells - 1) * size);
+        };
+        const auto point_near_walls = [&] { return Point{near_wall(0), near_wall(1), near_wall(2)}; };
+        while (boxes.size() < 60) {
+            Point low = point_near_walls();
+            Point high = point_near_walls();
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (random.chance(0.5)) high[k] = std::min(low[k] + random.unit() * size, offset + (cells - 1) * size);
+                if (low[k] > high[k]) std::swap(low[k], high[k]);
+            }
+            boxes.push_back({low, high});
+        }
+        Grid grid = grid_of(boxes, size);
+        const std::vector<std::uint32_t> order = grid.take_order();
+        for (int j = 0; j < 60; ++j) {
+            Path path{point_near_walls(), point_near_walls()};
+            for (std::size_t k = 0; k < 3; ++k)
+                if (random.chance(0.4)) path.to[k] = path.from[k];
+            const Backend& backend = *backends()[random.below(backends().size())];
+            for (const Way way : {Way::walk, Way::walk_once}) {
+                std::vector<int> seen(boxes.size(), 0);
+                bool wide = false;
+                find(backend, grid, path, way, 1, wide, [&](std::uint32_t id) { ++seen[order[id]]; });
+                ASSERT_FALSE(wide);
+                for (std::size_t n = 0; n < seen.size(); ++n) {
+                    if (way == Way::walk_once) {
+                        ASSERT_LE(seen[n], 1) << i << " segment " << j << " box " << n << " " << backend.name;
+                    }
+                    Q enter;
+                    if (!meets(path, boxes[n], enter)) continue;
+                    ++met;
+                    ASSERT_GT(seen[n], 0) << i << " segment " << j << " box " << n << " " << backend.name << " way " << static_cast<int>(way);
+                }
+            }
+        }
+    }
+    EXPECT_GT(met, 3000U);
+}
+
 TEST(Walk, misses_no_box_at_the_ends_of_the_number_range) {
     for (double scale : {1e-310, 1e-300, 1e300, 5e307})
         for (const double cell : {0.0, 0.1}) check_walks({Random(7), scale, 0, false}, cell, 40, 150);
