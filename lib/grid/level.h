@@ -3,6 +3,8 @@
 //   node (16 bytes)  which of its 64 parts hold anything, and the number of the first that does. The roots are dense; where a mesh fills
 //                    space evenly they are the lowest nodes as well, the bricks of cells, small enough for the second-level cache: most
 //                    misses end there. Where it does not (a teapot in a stadium), there are more layers under them.
+//   tops             layers above the roots, up to one node, dense and without numbers: long segments come down from there and meet no
+//                    empty space
 //   starts           for each cell that holds something, its place in the two lists
 //   boxes, ids       8 + 4 bytes for each triangle in each cell (packed_box.h)
 #pragma once
