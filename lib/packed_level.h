@@ -33,8 +33,8 @@ struct Top {
     std::uint32_t strides[4] = {0, 0, 0, 0};
 };
 
-/// Layers of the tree, of four by four by four, that 2^20 cells along an axis need.
-constexpr int k_most_layers = 10;
+/// Layers of the tree, of four by four by four, that somewhat more than 2^20 cells along an axis need (grid/raster.h).
+constexpr int k_most_layers = 11;
 
 /// See grid/level.h. The arrays have a fourth entry, so that four lanes can be read: it is 0, and 1 for `most`.
 struct PackedLevel {
@@ -92,7 +92,7 @@ struct Walk {
     int shift;              ///< a part of the first node is of 2^shift cells along each axis
     int depth;              ///< of the node that the walk is in, below the first; -1 at the end
     bool once;
-    Turn turns[k_most_layers + 1];
+    Turn turns[k_most_layers];
 };
 
 /// `never`: the segment is too long to be followed.

@@ -135,15 +135,18 @@ Shares share_out(std::span<const PlainBox<Scalar>> boxes, double finest, const E
     return shares;
 }
 
-/// Whether many of the boxes share a cell of a size with the average one of them: of some of them, by their lower corners. (Cells that share
-/// a place of the table count as one.)
+/// Whether many of the boxes share a cell of a size with the average one of them: of some of them, by their lower corners.
 template <class Scalar>
 bool crowded(const Share& share, std::span<const PlainBox<Scalar>> boxes, double cell) {
     if (static_cast<double>(share.ids.size()) < k_crowded) return false;
     const std::size_t stride = (share.ids.size() - 1) / k_some + 1;
     const std::size_t some = (share.ids.size() - 1) / stride + 1;
-    const std::size_t places = std::bit_ceil(2 * some);
-    std::vector<std::uint32_t> counts(places, 0);
+    struct Place {
+        std::uint64_t key = 0;
+        std::uint32_t count = 0;
+    };
+    const auto bits = static_cast<int>(std::bit_width(2 * some));
+    std::vector<Place> places(std::size_t{1} << bits);
     const Raster raster(share.box, cell);
     double pairs = 0;
     for (std::size_t i = 0; i < share.ids.size(); i += stride) {
@@ -151,8 +154,11 @@ bool crowded(const Share& share, std::span<const PlainBox<Scalar>> boxes, double
         const std::array<int, 3> at = raster.cell_of(raster.steps(boxes[id].low, boxes[id].high).low);
         const std::uint64_t key = static_cast<std::uint64_t>(at[0]) << 42 | static_cast<std::uint64_t>(at[1]) << 21 |
                                   static_cast<std::uint64_t>(at[2]);
-        // Fibonacci hashing (Knuth, volume 3, 6.4).
-        pairs += counts[(key * 0x9e3779b97f4a7c15) >> 20 & (places - 1)]++;
+        // Fibonacci hashing (Knuth, volume 3, 6.4): the upper bits, on which all of the key has an effect.
+        std::size_t place = key * 0x9e3779b97f4a7c15 >> (64 - bits);
+        while (places[place].count != 0 && places[place].key != key) place = (place + 1) & (places.size() - 1);
+        places[place].key = key;
+        pairs += places[place].count++;
     }
     // Each box is in two lists of pairs, and shares its cell with as many times more as there are more boxes.
     return 2 * pairs / static_cast<double>(some) * static_cast<double>(stride) >= k_crowded;
@@ -215,17 +221,22 @@ Level build_level(const Box& box, RawArray<std::uint32_t>& ids, std::uint32_t fi
             }
         });
         LevelBuilder builder(raster, first, std::span<const Steps>(steps.data(), steps.size()), executor);
-        // 16 bytes a reference: a start for each cell that lists something, and there are at most as many of these. For roots, see
-        // the builder; further nodes are few.
-        const double bytes = 16.0 * static_cast<double>(builder.reference_count()) + 8.0 * static_cast<double>(ids.size()) + 1024;
+        // 16 bytes a reference: a start for each cell that lists something, and there are at most as many of these. For roots and what is
+        // above them, see the builder. Further nodes are few, but where boxes are scattered: that is known when they are built.
+        const double bytes = 16.0 * static_cast<double>(builder.reference_count()) + 11.0 * static_cast<double>(ids.size()) + 1024;
         const bool countable = builder.reference_count() <= 0xffff'fff0U;
-        if (countable && (largest || bytes <= static_cast<double>(max_bytes))) return builder.build();
+        double larger = 1.25;
+        if (countable && (largest || bytes <= static_cast<double>(max_bytes))) {
+            Level level = builder.build();
+            if (largest || level.bytes() <= max_bytes) return level;
+            larger = 2;
+        }
         if (largest) throw std::length_error("the grid of a mesh with so many triangles of this size can't be numbered");
         // Larger ones; and no size for which the raster, which has only so many cells, would be the same.
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < 3; ++k)
             if (raster.cells()[k] > 1) least = std::min(least, raster.size(k));
-        size = std::max(1.25 * size, least);
+        size = std::max(larger * size, least);
     }
 }
 

@@ -30,7 +30,7 @@ LevelBuilder::LevelBuilder(const Raster& raster, std::uint32_t first, std::span<
     count_slabs();
 }
 
-// Roots as small as they may be for eight bytes of them a triangle: bricks, if the mesh fills its box as evenly as a surface does.
+// Roots as small as they may be for eight bytes of them a triangle, and a third of that above them: bricks, if the mesh fills its box as evenly as a surface does.
 void LevelBuilder::place_roots() {
     for (root_shift_ = 2;; root_shift_ += 2) {
         double roots = 1;
@@ -189,6 +189,7 @@ void LevelBuilder::build_tops(Level& level) const {
         count += places;
     }
     level.top_parts_.assign(count, 0);
+    level.tops_.reserve(layers.size());
     const auto mark = [&](const Layer& layer, const Cell& part) {
         const std::size_t place = static_cast<std::size_t>(part[0] >> 2) +
                                   static_cast<std::size_t>(layer.size[0]) * (static_cast<std::size_t>(part[1] >> 2) +
@@ -234,6 +235,7 @@ void LevelBuilder::build_dense(Level& level) const {
     }
     level.starts_.reserve(before + 1);
     for (const auto& some : starts) level.starts_.insert(level.starts_.end(), some.begin(), some.end());
+    level.starts_.push_back(static_cast<std::uint32_t>(references_));
 }
 
 void LevelBuilder::build_sparse(Level& level) const {
@@ -300,6 +302,8 @@ void LevelBuilder::build_sparse(Level& level) const {
         for (const Branch& branch : layers[layer]) level.nodes_.push_back(branch.node);
     }
     level.nodes_.shrink_to_fit();
+    level.starts_.push_back(static_cast<std::uint32_t>(references_));
+    level.starts_.shrink_to_fit();
 }
 
 Level LevelBuilder::build() {
@@ -318,7 +322,6 @@ Level LevelBuilder::build() {
     } else {
         build_sparse(level);
     }
-    level.starts_.push_back(static_cast<std::uint32_t>(references_));
     build_tops(level);
     for (std::size_t k = 0; k < 3; ++k) {
         level.packed_.half_low[k] = raster_.half_low(k);

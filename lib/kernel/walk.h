@@ -13,7 +13,7 @@
 //   - An axis along which |d| < 2^-20 is given that much, which puts L off by less than 2^-20.
 //   - Where an interval ends, (wall - f) / d, is computed with three roundings: a shift along the axis of less than 4u M. Places on L are
 //     computed to within 4u M.
-// The walk is for M < 2^35 only: everything together is less than 23 * 2^-52 * 2^35 + 2^-20 < 2^-11 cells, a sixteenth of a step. One slab's
+// The walk is for M < 2^35 only (2^34, and the cells): everything together is less than 23 * 2^-52 * 2^35 + 2^-20 < 2^-11 cells, a sixteenth of a step. One slab's
 // interval ends where the next one's begins, as computed: so for every s there is a cell whose three intervals hold it. P(s) is within
 // 2^-11 cells of it. A box that holds P(s) is then listed in that cell, and shares a step with what is asked there.
 //
@@ -47,6 +47,8 @@ constexpr double k_margin = 0x1p-10;  ///< of a part; and of the level, as all t
 [[gnu::always_inline]] inline double smallest(const Double4& x) { return smaller(smaller(x[0], x[1]), x[2]); }
 [[gnu::always_inline]] inline double largest(const Double4& x) { return larger(larger(x[0], x[1]), x[2]); }
 
+[[gnu::always_inline]] inline Int4 all_axes(int x) { return Int4{x, x, x, x}; }
+
 /// Where the 16 parts of a layer of a node are along two axes.
 constexpr float k_part_x[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 constexpr float k_part_y[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
@@ -77,9 +79,8 @@ struct Stay {
     Double4 inverse;
     __builtin_memcpy(&origin, walk.origin, sizeof origin);
     __builtin_memcpy(&inverse, walk.inverse, sizeof inverse);
-    const Int4 one = {1, 1, 1, 1};
     const double enter = largest((__builtin_convertvector(cell, Double4) - origin) * inverse);
-    const double leave = smallest((__builtin_convertvector(cell + one, Double4) - origin) * inverse);
+    const double leave = smallest((__builtin_convertvector(cell + all_axes(1), Double4) - origin) * inverse);
     return {larger(enter, walk.first), smaller(leave, end)};
 }
 [[gnu::always_inline]] inline bool touched(const Stay& stay) { return stay.enter <= stay.leave; }
@@ -140,7 +141,7 @@ template <class Wide>
 [[gnu::always_inline]] inline Int4 lowest_cell(const Walk& walk, const Int4& corner, int shift) {
     Int4 mirror;
     __builtin_memcpy(&mirror, walk.mirror, sizeof mirror);
-    return (corner ^ mirror) - (mirror & ((1 << shift) - 1));
+    return (corner ^ mirror) - (mirror & all_axes((1 << shift) - 1));
 }
 
 /// What the tree holds at a cell, in the node with parts of 2^shift cells.
@@ -209,7 +210,7 @@ template <class Wide>
     }
     walk.shift = different < 4 ? 0 : (31 - __builtin_clz(static_cast<unsigned>(different))) & ~1;
     const Node node = node_at<Wide>(level, cell, walk.shift);
-    const int whole = (4 << walk.shift) - 1;
+    const Int4 whole = all_axes((4 << walk.shift) - 1);
     cell &= ~whole;
     Int4 mirror;
     __builtin_memcpy(&mirror, walk.mirror, sizeof mirror);

@@ -322,6 +322,43 @@ TEST(Grid, keeps_to_its_memory) {
     EXPECT_LE(grid_of(boxes, 1e-9, std::size_t{1} << 22).bytes(), (std::size_t{1} << 22) + 1024);
 }
 
+// Small boxes scattered over a wide space: nearly each has a branch of the tree for itself, which was not counted (108 bytes a box for 96;
+// four times as many for less).
+TEST(Grid, keeps_to_its_memory_where_boxes_are_scattered) {
+    Random random(8);
+    Boxes boxes;
+    for (int i = 0; i < 5255; ++i) {
+        const Vec3<double> p = 1000 * random.in_cube();
+        boxes.push_back({{p[0], p[1], p[2]}, {p[0] + 0.01, p[1] + 0.01, p[2] + 0.01}});
+    }
+    for (const std::size_t each : {28U, 60U, 96U}) EXPECT_LE(grid_of(boxes, 0, each * boxes.size()).bytes(), each * boxes.size() + 1024) << each;
+}
+
+// Boxes of two sizes along a tube: cells one behind the other along x were taken for one, and small boxes so for crowded, which gave them
+// levels of their own; along y and z they were not.
+TEST(Grid, has_the_same_levels_however_a_mesh_is_turned) {
+    for (const double length : {1000.0, 0.1}) {
+        std::array<std::size_t, 3> levels{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            Random random(9);
+            Boxes boxes;
+            for (int i = 0; i < 24'000; ++i) {
+                const Vec3<double> p = random.in_cube();
+                const double size = i < 4000 ? 0.002 : 0.1;
+                PlainBox<double> box{};
+                for (std::size_t k = 0; k < 3; ++k) {
+                    box.low[(axis + k) % 3] = p[static_cast<int>(k)] * (k == 0 && i < 4000 ? length : k == 0 ? 1000 : 0.05);
+                    box.high[(axis + k) % 3] = box.low[(axis + k) % 3] + size;
+                }
+                boxes.push_back(box);
+            }
+            levels[axis] = grid_of(boxes, 0).levels().size();
+        }
+        // All along the tube, each shares a large cell with a few others; in one place with thousands.
+        EXPECT_EQ(levels, (length < 1 ? std::array<std::size_t, 3>{2, 2, 2} : std::array<std::size_t, 3>{1, 1, 1}));
+    }
+}
+
 // A flat box a unit from the origin with cells of 1e-25, or a unit box with cells of 1e-300: a cell was less than the last place of its
 // coordinates, so that the margin around the box was rounded to more cells than an int can count, one by one.
 TEST(Grid, ends_for_cells_far_below_the_coordinates_last_place) {

@@ -39,11 +39,9 @@ class Threads {
     // A build calls some ten times within a few milliseconds: as job systems do, threads look for work for a while before they sleep.
     template <class Value>
     static void wait_while(const std::atomic<Value>& value, Value old) {
-        constexpr int k_looks = 5000;
-        for (int look = 0; look < k_looks; ++look) {
+        constexpr int k_looks = 100'000;  // some tens of microseconds
+        for (int look = 0; look < k_looks; ++look)
             if (value != old) return;
-            __builtin_ia32_pause();
-        }
         value.wait(old);
     }
 
