@@ -1,4 +1,4 @@
-// One triangle at a time, for machines whose instruction set has no file of its own, and to compare the others with; see lanes.h.
+// One number at a time, for machines whose instruction set has no file of its own, and to compare the others with; see set_probe.h.
 #include <kernel/table.h>
 
 namespace pierce::detail {
@@ -7,65 +7,52 @@ namespace {
 
 struct Plain {
     static constexpr unsigned width = 1;
-    static constexpr unsigned boxes = 1;
     using Float = float;
+    using Mask = bool;
 
     static Float all(float x) { return x; }
+    static Float all_bits(std::uint32_t x) {
+        float y;
+        __builtin_memcpy(&y, &x, sizeof y);
+        return y;
+    }
     static Float load(const float* x) { return *x; }
     static Float abs(Float x) { return x < 0 ? -x : x; }
     static Float max(Float x, Float y) { return x > y ? x : y; }
     static Float min(Float x, Float y) { return x < y ? x : y; }
-    static unsigned less(Float x, Float y) { return x < y ? 1 : 0; }
+    static Float multiply_add(Float x, Float y, Float z) { return x * y + z; }
+    static Mask below(Float x, Float y) { return x < y; }
+    static Mask at_most(Float x, Float y) { return x <= y; }
+    static Mask both(Mask x, Mask y) { return x && y; }
+    static Mask either(Mask x, Mask y) { return x || y; }
+    static unsigned bits(Mask x) { return x ? 1 : 0; }
+    static Float select(Mask mask, Float x, Float y) { return mask ? x : y; }
 
-    static constexpr unsigned rows = 1;
-    template <class Scalar>
-    static const Scalar* same_row(const Scalar* x) {
-        return x;
-    }
-    template <class Scalar>
-    static const Scalar* row(const Scalar* const* at, unsigned i) {
-        return at[i];
-    }
-    template <class Scalar>
-    static Lanes<Plain> scaled(const Scalar* x, const Scalar* origin, float scale) {
-        const auto difference = [&](unsigned k) { return static_cast<float>((x[k] - origin[k]) * Scalar{scale}); };
-        return {difference(0), difference(1), difference(2)};
-    }
+    static Float words(const std::uint16_t* x) { return *x; }
+    static Float bytes(const std::uint8_t* x) { return *x; }
 
-    static void settle(Double4&) {}
-    static void lower(Double4& x, const Double4& y) { x = x < y ? x : y; }
-    static void raise(Double4& x, const Double4& y) { x = x > y ? x : y; }
-    static unsigned negative(Int4 x) {
-        unsigned bits = 0;
-        for (int k = 0; k < 4; ++k) bits |= x[k] < 0 ? 1U << k : 0U;
+    static Float key(Float entry, unsigned first) {
+        std::uint32_t x;
+        __builtin_memcpy(&x, &entry, sizeof x);
+        return all_bits((x & ~15U) | first);
+    }
+    static Mask same(Float x, Float y) { return x == y; }
+    static Float least(Float x, Float y) { return x < y ? x : y; }
+    static std::uint32_t least_of(Float x) {
+        std::uint32_t bits;
+        __builtin_memcpy(&bits, &x, sizeof bits);
         return bits;
     }
-    static std::uint64_t pack(Int4 low, Int4 high) {
-        std::uint64_t bytes = 0;
-        for (int k = 0; k < 8; ++k) {
-            const int x = k < 4 ? low[k] : high[k - 4];
-            bytes |= static_cast<std::uint64_t>((x < -128 ? -128 : x > 127 ? 127 : x) & 0xff) << (8 * k);
-        }
-        return bytes;
-    }
-    static unsigned count_bits(std::uint64_t x) { return count_bits_by_halves(x); }
 
-    using Bytes = std::uint64_t;
-    static Bytes bytes(std::uint64_t x) { return x; }
-    static unsigned left(const std::uint64_t* box, Bytes above, Bytes seen) {
-        if ((*box & seen) != 0) return 0;
-        for (int place = 0; place < 64; place += 8)
-            if (static_cast<signed char>(*box >> place & 0xff) > static_cast<signed char>(above >> place & 0xff)) return 0;
-        return 1;
+    template <class Scalar>
+    static Float corner_row(const Scalar* row, Scalar origin, Scalar scale) {
+        return static_cast<float>((*row - origin) * scale);
     }
-    static unsigned keep(unsigned lanes, const std::uint32_t* ids, std::uint32_t* out) {
-        *out = *ids;
-        return lanes;
-    }
+    static Float row_difference(const double* x, const double* y, double scale) { return static_cast<float>((*x - *y) * scale); }
 };
 
 }  // namespace
 
-constinit const Backend k_plain = Kernels<Plain>::named("plain");
+constinit const Backend k_plain = backend_named<Plain>("plain");
 
 }  // namespace pierce::detail

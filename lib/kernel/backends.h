@@ -8,15 +8,6 @@
 
 namespace pierce::detail {
 
-#if defined(__x86_64__)
-extern const Backend k_sse2;
-extern const Backend k_avx2;
-extern const Backend k_avx512;
-#elif defined(__aarch64__)
-extern const Backend k_neon;
-#endif
-extern const Backend k_plain;
-
 /// Those that this machine runs, the fastest first. Never empty.
 [[nodiscard]] const std::vector<const Backend*>& backends();
 

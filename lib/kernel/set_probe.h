@@ -1,0 +1,162 @@
+// Makes a segment ready for the wide kernels; a segment much longer than the scene is clipped to its box first.
+//
+// Included by backend_*.cpp, as all of the wide kernels' headers: nothing here may be shared with other files, so no standard header with
+// inline functions, and every function depends on a type of an unnamed namespace.
+//
+// In scene units, relative to Frame::low, the scene is in [0, 2]. x = from * unit - low is within 2^-52 |x| of the exact one, as unit is a power of
+// two (underflow: 2^-1074, less than the noise); d = (to - from) * unit is within 2^-52 |d|. So a point x + t d is within
+// 2^-52 (|x| + 2 |x + d|) of the exact one, which is part of `noise`.
+//
+// Where an end is further than k_far from the lattice's corner the segment is clipped. From the nearer end on, y + r e with r in [0, 1] has left
+// [-1/8, 17/8] before r_in and after r_out; (bound - y) and the quotient round three times, so r is within 2^-50 of itself, which moves a point by at
+// most 2^-50 (|y| + |e| r) < 2^-49 (|y| + 4): nothing that is within the eighth of the scene less the noise is lost if that
+// is below 1/16, and what is lost in the place of the points is added to the noise. From a near end, |y| <= k_far, the length
+// does not matter. Where both ends are far, the noise grows with the distance of the nearer one: from 2^30 scenes on boxes
+// are told apart less and less well, and from 2^46 on everything is visited.
+#pragma once
+
+#include <node.h>
+#include <kernel/probe.h>
+
+namespace pierce::detail {
+
+constexpr double k_far = 8;
+
+template <class Wide>
+[[gnu::always_inline]] inline double magnitude(double x) {
+    return __builtin_fabs(x);
+}
+
+/// Clips. Returns false where nothing is left. `whole` has origin and direction of the whole segment.
+template <class Wide, class Scalar>
+[[gnu::noinline]] bool clip(const Frame& frame, const double* from, const double* to, Probe<Scalar>& probe, double* moved_from, double* moved) {
+    double ends[2][3];
+    double reach[2] = {0, 0};
+    for (int k = 0; k < 3; ++k) {
+        ends[0][k] = from[k] * frame.unit - frame.low[k];
+        ends[1][k] = to[k] * frame.unit - frame.low[k];
+        for (int i = 0; i < 2; ++i) {
+            const double x = magnitude<Wide>(ends[i][k]);
+            reach[i] = x > reach[i] ? x : reach[i];
+        }
+    }
+    const int base = reach[0] <= reach[1] ? 0 : 1;
+    const double* y = ends[base];
+    const double off = 0x1p-48 * (reach[base] + 8);
+    const double wide = 0.125 + frame.noise + off;
+    double in = 0;
+    double out = 1;
+    double e[3];
+    for (int k = 0; k < 3; ++k) {
+        // Halves: the difference of two doubles may be infinite.
+        e[k] = ((base == 0 ? to[k] : from[k]) * 0.5 - (base == 0 ? from[k] : to[k]) * 0.5) * frame.unit;
+        const double low = -wide;
+        const double high = frame.high[k] - frame.low[k] + wide;
+        if (e[k] == 0) {
+            if (y[k] < low || y[k] > high) return false;
+            continue;
+        }
+        const double a = (low - y[k]) * 0.5 / e[k];
+        const double b = (high - y[k]) * 0.5 / e[k];
+        const double first = a < b ? a : b;
+        const double last = a < b ? b : a;
+        in = first > in ? first : in;
+        out = last < out ? last : out;
+    }
+    in *= 1 - 0x1p-49;
+    out *= 1 + 0x1p-49;
+    if (out > 1) out = 1;
+    if (in > out) return false;
+    const double begin = base == 0 ? in : 1 - out;
+    probe.begin = begin;
+    probe.length = out - in;
+    const double at = base == 0 ? in : out;
+    const double sign = base == 0 ? 2 : -2;
+    for (int k = 0; k < 3; ++k) {
+        probe.origin[k] = y[k] + at * 2 * e[k];
+        probe.direction[k] = sign * ((out - in) * e[k]);
+        probe.noise[k] = frame.noise + off;
+        const double start = (base == 0 ? from[k] : to[k]);
+        moved_from[k] = start + at * 2 * (e[k] / frame.unit);
+        moved[k] = probe.direction[k] / frame.unit;
+    }
+    return true;
+}
+
+/// Returns false if the segment certainly touches nothing.
+template <class Wide, class Scalar>
+[[gnu::always_inline]] inline bool set_probe(const Frame& frame, const double* from, const double* to, bool front_only, bool back_only,
+                                             Probe<Scalar>& probe) {
+    double furthest = 0;
+    double moved_from[3] = {from[0], from[1], from[2]};
+    double moved[3];
+    for (int k = 0; k < 3; ++k) {
+        const double x = from[k] * frame.unit - frame.low[k];
+        const double z = to[k] * frame.unit - frame.low[k];
+        moved[k] = to[k] - from[k];
+        probe.origin[k] = x;
+        probe.direction[k] = moved[k] * frame.unit;
+        const double size = magnitude<Wide>(x) + magnitude<Wide>(z);
+        probe.noise[k] = frame.noise + 0x1p-51 * size;
+        furthest = size > furthest ? size : furthest;
+    }
+    probe.begin = 0;
+    probe.length = 1;
+    probe.front_only = front_only;
+    probe.back_only = back_only;
+    bool clipped = false;
+    if (!(furthest <= k_far)) [[unlikely]] {
+        clipped = true;
+        if (!clip<Wide>(frame, from, to, probe, moved_from, moved)) return false;
+    }
+    double noise = 0;
+    double scale = 1;
+    if constexpr (sizeof(Scalar) == sizeof(double)) scale = frame.unit;
+    double reach = 0;
+    probe.flipped = 0;
+    for (int k = 0; k < 3; ++k) {
+        double d = probe.direction[k];
+        // A shorter way along an axis is taken for one of 2^-60: no point moves by more, which is less than the noise.
+        if (!(magnitude<Wide>(d) >= 0x1p-60)) d = d < 0 ? -0x1p-60 : 0x1p-60;
+        const double inverse = 1 / d;
+        const double size = magnitude<Wide>(inverse);
+        probe.inverse[k] = static_cast<float>(inverse);
+        probe.margin[k] = static_cast<float>(size * probe.noise[k] * (1 + 0x1p-20));
+        probe.pace[k] = static_cast<float>(inverse * frame.step);
+        const double center = -probe.origin[k] * inverse;
+        const double e = size * (probe.noise[k] + 0x1p-19);
+        probe.near[k] = static_cast<float>(center - e);
+        probe.far[k] = static_cast<float>(center + e);
+        probe.flipped |= static_cast<std::uint32_t>(d < 0) << k;
+        noise = probe.noise[k] > noise ? probe.noise[k] : noise;
+        probe.corner_origin[k] = static_cast<Scalar>(moved_from[k]);
+        probe.corner_direction[k] = static_cast<float>(moved[k] * scale);
+        const double length = magnitude<Wide>(moved[k] * scale);
+        reach = length > reach ? length : reach;
+    }
+    probe.scale = static_cast<Scalar>(scale);
+    // Of the cluster test; derived there.
+    constexpr double u = 0x1p-24;
+    const double unit = scale / frame.unit;  // of the cluster test's lengths in scene units: 1, or that of the caller's coordinates
+    double g = noise * unit * (1 + 0x1p-20);
+    if (clipped) {  // the origin was moved and rounded
+        double most = 0;
+        for (int k = 0; k < 3; ++k) most = magnitude<Wide>(moved_from[k]) > most ? magnitude<Wide>(moved_from[k]) : most;
+        g += most * scale * (sizeof(Scalar) == sizeof(double) ? 0x1p-50 : 0x1p-23);
+    }
+    const bool tame = frame.unit >= 0x1p-30 && frame.unit <= 0x1p30;
+    const double floor = 0x1p-130 * (1 + 16 * unit) * (1 + 16 * unit);
+    const double none = static_cast<double>(__builtin_inff());
+    probe.reach = static_cast<float>(reach);
+    probe.edge_bound = static_cast<float>(64 * u * (1 + 0x1p-20) * reach);
+    probe.start_bound = static_cast<float>(128 * u * (1 + 0x1p-20) * reach);
+    probe.noise_bound = static_cast<float>(12 * g * (1 + 0x1p-20) * reach);
+    probe.plane_bound = static_cast<float>(64 * u);
+    probe.plane_noise = static_cast<float>(6 * g * (1 + 0x1p-20) + 64 * u * (1 + 0x1p-20) * reach);
+    probe.floor = static_cast<float>(sizeof(Scalar) == sizeof(double) || tame ? floor : none);
+    probe.nodes = 0;
+    probe.clusters = 0;
+    return true;
+}
+
+}  // namespace pierce::detail
