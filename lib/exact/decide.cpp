@@ -10,8 +10,8 @@ Decision decide(const Path& path, const Corners& corners, Sides sides) {
         Decision decision;
         const int from = volumes.from_side().sign();
         const int to = volumes.to_side().sign();
-        const bool front = from >= 0 && to < 0 && sides != Sides::back;
-        const bool back = from <= 0 && to > 0 && sides != Sides::front;
+        const bool front = passes_front(from, to) && sides != Sides::back;
+        const bool back = passes_back(from, to, sides) && sides != Sides::front;
         if (!front && !back) return decision;
 
         // The sides differ, so the line pierces the plane in one point, and the three weights, which add up to
