@@ -50,12 +50,14 @@ int side_of(const Corners& corners, const Point& point) {
 bool has_zero_area(const Corners& corners) {
     Lattice lattice;
     for (const Point& corner : corners) lattice.add(corner);
-    return with_limbs(lattice.bits(), [&]<int N>(std::integral_constant<int, N>) {
+    const auto narrow = [&]<int N>(std::integral_constant<int, N>) {
         const Vector<N> a = on_lattice<N>(corners[0], lattice);
         const Vector<2 * N> normal =
             cross(on_lattice<N>(corners[1], lattice) - a, on_lattice<N>(corners[2], lattice) - a);
         return normal[0].zero() && normal[1].zero() && normal[2].zero();
-    });
+    };
+    const auto wide = [&] { return WideVolumes({corners[0], corners[0]}, corners, lattice).normal_shift() == 0; };
+    return with_limbs(lattice.bits(), narrow, wide);
 }
 
 }  // namespace pierce::detail

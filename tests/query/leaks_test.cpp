@@ -126,12 +126,11 @@ bool hit(const detail::Path& path, const detail::Corners& corners, Rule rule) {
     if (rule == Rule::closed) return detail::decide(path, corners, Sides::front).hit;
     if (rule == Rule::both) return detail::decide(path, corners, Sides::both).hit;
     if (rule == Rule::translated) return detail::crossing(path, corners) > 0;
-    return detail::with_volumes(path, corners, []<int N>(const detail::Volumes<N>& volumes) {
+    return detail::with_volumes(path, corners, [](const auto& volumes) {
         if (!(volumes.from_side().sign() >= 0 && volumes.to_side().sign() < 0)) return false;
         for (int k = 0; k < 3; ++k) {
             int weight = volumes.weight(k).sign();
-            const auto tie = detail::cross(volumes.direction(), volumes.edge_against(k));
-            for (std::size_t c = 0; weight == 0 && c < 3; ++c) weight = tie[c].sign();
+            if (weight == 0) weight = volumes.edge_shift(k);
             if (weight != 1) return false;
         }
         return true;
