@@ -16,7 +16,7 @@ enum class Reason : std::uint8_t {
     masked,        ///< `face_mask` leaves it out
     in_plane,      ///< both ends lie in the face's plane
     in_front,      ///< the segment does not go behind the plane
-    behind,        ///< the segment does not go in front of the plane
+    behind,        ///< the segment does not go in front of the plane (for `both`: nor onto it)
     wrong_side,    ///< it passes through the plane from the side that `sides` leaves out
     outside_edge,  ///< it passes through the plane on the outer side of edge `edge`
     too_far,       ///< hit, but beyond `max_fraction`

@@ -10,8 +10,8 @@ Decision decide(const Path& path, const Corners& corners, Sides sides) {
         Decision decision;
         const int from = volumes.from_side().sign();
         const int to = volumes.to_side().sign();
-        const bool front = from >= 0 && to < 0 && sides != Sides::back;
-        const bool back = from <= 0 && to > 0 && sides != Sides::front;
+        const bool front = passes_front(from, to) && sides != Sides::back;
+        const bool back = passes_back(from, to, sides) && sides != Sides::front;
         if (!front && !back) return decision;
 
         // The sides differ, so the line pierces the plane in one point, and the three weights, which add up to
@@ -50,12 +50,14 @@ int side_of(const Corners& corners, const Point& point) {
 bool has_zero_area(const Corners& corners) {
     Lattice lattice;
     for (const Point& corner : corners) lattice.add(corner);
-    return with_limbs(lattice.bits(), [&]<int N>(std::integral_constant<int, N>) {
+    const auto narrow = [&]<int N>(std::integral_constant<int, N>) {
         const Vector<N> a = on_lattice<N>(corners[0], lattice);
         const Vector<2 * N> normal =
             cross(on_lattice<N>(corners[1], lattice) - a, on_lattice<N>(corners[2], lattice) - a);
         return normal[0].zero() && normal[1].zero() && normal[2].zero();
-    });
+    };
+    const auto wide = [&] { return WideVolumes({corners[0], corners[0]}, corners, lattice).normal_shift() == 0; };
+    return with_limbs(lattice.bits(), narrow, wide);
 }
 
 }  // namespace pierce::detail

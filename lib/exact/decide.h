@@ -15,9 +15,17 @@ struct Decision {
     bool at_start = false;
 };
 
-/// The closed rule. From the front: side(from) >= 0, side(to) < 0 and the segment meets the closed triangle; from the back:
-/// side(from) <= 0, side(to) > 0 and the same. So a segment in the plane, of length zero, or on a triangle of area
-/// zero (whose sides are all 0) never hits.
+/// Whether ends on these sides pass the plane from its front: on the plane counts as in front.
+[[nodiscard]] constexpr bool passes_front(int from, int to) { return from >= 0 && to < 0; }
+
+/// Whether they pass it from its back. On the plane counts as behind for `back`, which is `front` mirrored; for `both` as in
+/// front, so that a hit is a change of side: a point on the plane can leave it to the front.
+[[nodiscard]] constexpr bool passes_back(int from, int to, Sides sides) {
+    return sides == Sides::both ? from < 0 && to >= 0 : from <= 0 && to > 0;
+}
+
+/// The closed rule: the ends pass the plane from a side that counts, and the segment meets the closed triangle. So a segment in
+/// the plane, of length zero, or on a triangle of area zero (whose sides are all 0) never hits.
 [[nodiscard]] Decision decide(const Path& path, const Corners& corners, Sides sides);
 
 /// The sign of orient3d: +1 in front of the triangle, 0 on its plane, -1 behind it; 0 for a triangle of area zero.

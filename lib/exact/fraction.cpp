@@ -12,39 +12,65 @@ namespace pierce::detail {
 int compare_fractions(const Path& path, const Corners& first, const Corners& second) {
     Lattice lattice = lattice_of(path, first);
     for (const Point& corner : second) lattice.add(corner);
-    return with_limbs(lattice.bits(), [&]<int N>(std::integral_constant<int, N>) {
-        const Volumes<N> one(path, first, lattice);
-        const Volumes<N> two(path, second, lattice);
-        // A1 / (A1 + B1) < A2 / (A2 + B2)  <=>  A1 B2 < A2 B1, all of them >= 0.
-        return compare(magnitude(one.from_side()) * magnitude(two.to_side()),
-                       magnitude(two.from_side()) * magnitude(one.to_side()));
-    });
+    // A1 / (A1 + B1) < A2 / (A2 + B2)  <=>  A1 B2 < A2 B1, all of them >= 0.
+    const auto order = [](const auto& one, const auto& two) {
+        return compare_products(magnitude(one.from_side()), magnitude(two.to_side()), magnitude(two.from_side()),
+                                magnitude(one.to_side()));
+    };
+    return with_limbs(
+        lattice.bits(),
+        [&]<int N>(std::integral_constant<int, N>) {
+            return order(Volumes<N>(path, first, lattice), Volumes<N>(path, second, lattice));
+        },
+        [&] { return order(WideVolumes(path, first, lattice), WideVolumes(path, second, lattice)); });
 }
+
+bool same_place(const Corners& first, const Decision& one, const Corners& second, const Decision& two) {
+    if (one.feature == Feature::face || one.feature != two.feature) return false;
+    const Point& p = first[one.feature_index];
+    const Point& q = second[two.feature_index];
+    if (one.feature == Feature::vertex) return p == q;
+    const Point& p_next = first[(one.feature_index + 1U) % 3];
+    const Point& q_next = second[(two.feature_index + 1U) % 3];
+    return (p == q && p_next == q_next) || (p == q_next && p_next == q);
+}
+
+namespace {
+
+// Whether a <= limit sum, for 0 < a <= sum and 0 < limit < 1.
+template <int N>
+bool at_most(const Integer<N>& a, const Integer<N>& sum, double limit) {
+    const Bits bits(limit);
+    // a 2^shift <= mantissa sum, where limit = mantissa / 2^shift. With mantissa < 2^53, a larger shift puts the right side below 1.
+    const int shift = -bits.exponent;
+    if (shift > bit_length(sum) + 53) return false;
+    Integer<1> mantissa;
+    mantissa.limb[0] = bits.mantissa;
+    const Integer<2 * N + 2> left = widen<2 * N + 2>(a) << shift;
+    return compare(left, widen<2 * N + 2>(sum * mantissa)) <= 0;
+}
+
+bool at_most(const Magnitude& a, const Magnitude& sum, double limit) {
+    return compare_products(a, Magnitude(1), sum, Magnitude(limit)) <= 0;
+}
+
+}  // namespace
 
 bool fraction_at_most(const Path& path, const Corners& corners, double limit) {
     if (!(limit >= 0)) return false;
     if (limit >= 1) return true;
-    return with_volumes(path, corners, [limit]<int N>(const Volumes<N>& volumes) {
-        const Integer<3 * N> a = magnitude(volumes.from_side());
-        const Integer<3 * N> b = magnitude(volumes.to_side());
-        const Integer<3 * N> sum = a + b;  // below 2^(192 N - 5), see with_limbs
-        const Bits bits(limit);
-        if (a.zero() || bits.mantissa == 0) return a.zero();
-        // A <= limit (A + B)  <=>  A 2^shift <= mantissa (A + B), where limit = mantissa / 2^shift < 1.
-        const int shift = -bits.exponent;
-        // With mantissa < 2^53, a larger shift puts the right side below 1, and A is at least 1.
-        if (shift > bit_length(sum) + 53) return false;
-        Integer<1> mantissa;
-        mantissa.limb[0] = bits.mantissa;
-        const Integer<6 * N + 2> left = widen<6 * N + 2>(a) << shift;
-        return compare(left, widen<6 * N + 2>(sum * mantissa)) <= 0;
+    return with_volumes(path, corners, [limit](const auto& volumes) {
+        const auto a = magnitude(volumes.from_side());
+        if (a.zero() || limit == 0) return a.zero();
+        // The sum of integers of 3 N limbs is below 2^(192 N - 5), see with_limbs.
+        return at_most(a, a + magnitude(volumes.to_side()), limit);
     });
 }
 
 Measures measure(const Path& path, const Corners& corners) {
-    return with_volumes(path, corners, []<int N>(const Volumes<N>& volumes) {
-        const Integer<3 * N> a = magnitude(volumes.from_side());
-        const Integer<3 * N> sum = a + magnitude(volumes.to_side());
+    return with_volumes(path, corners, [](const auto& volumes) {
+        const auto a = magnitude(volumes.from_side());
+        const auto sum = a + magnitude(volumes.to_side());
         Measures measures{};
         measures.fraction = ratio(a, sum);
         for (int k = 0; k < 3; ++k)

@@ -1,13 +1,17 @@
 // Where along a segment its hits lie: exact order, exact limits, and the values that are reported.
 #pragma once
 
-#include <point.h>
+#include <exact/decide.h>
 
 namespace pierce::detail {
 
 /// The order of two hits of the same path: < 0 where the first comes before the second, 0 where their fractions are equal.
 /// Both triangles must be hit by the path.
 [[nodiscard]] int compare_fractions(const Path& path, const Corners& first, const Corners& second);
+
+/// Whether two hits of one path certainly lie on the same point because they lie on one edge or one vertex, by its coordinates: a line
+/// that passes the plane of an edge meets it in one point. So their fractions are equal, and no arithmetic is needed.
+[[nodiscard]] bool same_place(const Corners& first, const Decision& one, const Corners& second, const Decision& two);
 
 /// Whether the exact fraction of a hit is at most `limit`. NaN: no.
 [[nodiscard]] bool fraction_at_most(const Path& path, const Corners& corners, double limit);

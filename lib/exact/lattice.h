@@ -81,18 +81,18 @@ template <int N, int M>
     return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
 
-/// Calls `f` with the number of limbs that coordinates of `bits` bits are computed in.
+/// Calls `f` with the number of limbs that coordinates of `bits` bits are computed in, or `wide` where they are too far apart for any.
 ///
 /// With coordinates below 2^b, b <= 64 N - 4, a difference is below 2^(b+1), a 2x2 minor of differences below 2^(2b+3), a
 /// 3x3 determinant of differences (three products of a minor and a difference) below 2^(3b+6): all fit N, 2N and 3N limbs
 /// with their sign bit. 1 limb serves float meshes whose coordinates span few exponents, 2 most others, 5 every
-/// float (277 bits), 33 every double (2098 bits).
-template <class F>
-decltype(auto) with_limbs(int bits, F&& f) {
+/// float (277 bits). Doubles span up to 2098: accumulator.h.
+template <class F, class G>
+decltype(auto) with_limbs(int bits, F&& f, G&& wide) {
     if (bits <= 60) return f(std::integral_constant<int, 1>{});
     if (bits <= 124) return f(std::integral_constant<int, 2>{});
     if (bits <= 316) return f(std::integral_constant<int, 5>{});
-    return f(std::integral_constant<int, 33>{});
+    return wide();
 }
 
 }  // namespace pierce::detail

@@ -26,8 +26,8 @@ namespace pierce::detail {
 ///
 /// Both are cut to 64 bits (relative error below 2^-63 each) and so is the quotient: it is within 2^-61 before the one rounding
 /// to 53 bits, so the result is within (1/2 + 2^-8) ulp, and 0 and 1 come out as exactly that.
-template <int N, int M>
-[[nodiscard]] inline double ratio(const Integer<N>& numerator, const Integer<M>& denominator, int exponent = 0) {
+template <class Numerator, class Denominator>
+[[nodiscard]] inline double ratio(const Numerator& numerator, const Denominator& denominator, int exponent = 0) {
     if (numerator.zero()) return 0.0;
     const std::uint64_t n = top_bits(numerator);
     const std::uint64_t d = top_bits(denominator);

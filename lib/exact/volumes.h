@@ -1,7 +1,8 @@
-// The five determinants that say everything about a segment and a triangle, as integers.
+// The five determinants that say everything about a segment and a triangle, in either arithmetic: integers of a fixed width, and sums of
+// products for coordinates too far apart for them. The rules read signs, and are written once.
 #pragma once
 
-#include <exact/lattice.h>
+#include <exact/magnitude.h>
 
 namespace pierce::detail {
 
@@ -34,16 +35,92 @@ class Volumes {
         return dot(to_ - from_, cross(before, after));
     }
 
-    [[nodiscard]] const Vector<2 * N>& normal() const { return normal_; }
-    [[nodiscard]] Vector<N> direction() const { return to_ - from_; }
-    /// From the corner before corner k to the one after it: the edge opposite to it, backwards.
-    [[nodiscard]] Vector<N> edge_against(int k) const { return corner_[(k + 1) % 3] - corner_[(k + 2) % 3]; }
+    /// The sign of n . (e, e^2, e^3) for e -> 0+.
+    [[nodiscard]] int normal_shift() const { return first_sign(normal_); }
+    /// The same for (to - from) x (the edge opposite to corner k, from the corner before it to the one after it).
+    [[nodiscard]] int edge_shift(int k) const { return first_sign(cross(to_ - from_, corner_[(k + 1) % 3] - corner_[(k + 2) % 3])); }
 
   private:
+    static int first_sign(const Vector<2 * N>& v) {
+        for (const Integer<2 * N>& component : v)
+            if (const int sign = component.sign(); sign != 0) return sign;
+        return 0;
+    }
+
     Vector<N> from_;
     Vector<N> to_;
     Vector<N> corner_[3];
     Vector<2 * N> normal_;
+};
+
+/// The same for any finite doubles.
+class WideVolumes {
+  public:
+    WideVolumes(const Path& path, const Corners& corners, const Lattice& lattice)
+        : lattice_(lattice), from_(odd(path.from)), to_(odd(path.to)), corner_{odd(corners[0]), odd(corners[1]), odd(corners[2])} {}
+
+    [[nodiscard]] Accumulator from_side() const { return volume(corner_[0], corner_[1], corner_[2], from_); }
+    [[nodiscard]] Accumulator to_side() const { return volume(corner_[0], corner_[1], corner_[2], to_); }
+    [[nodiscard]] Accumulator weight(int k) const { return volume(from_, corner_[(k + 2) % 3], corner_[(k + 1) % 3], to_); }
+
+    [[nodiscard]] int normal_shift() const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (const int sign = wide_normal(corner_[0], corner_[1], corner_[2], k, lattice_).sign(); sign != 0) return sign;
+        return 0;
+    }
+    [[nodiscard]] int edge_shift(int corner) const {
+        const OddPoint& head = corner_[(corner + 1) % 3];
+        const OddPoint& tail = corner_[(corner + 2) % 3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t i = (k + 1) % 3;
+            const std::size_t j = (k + 2) % 3;
+            Accumulator sum(lattice_, 2);
+            for (const bool minus : {false, true}) {
+                const OddPoint& p = minus ? from_ : to_;
+                sum.add(minus, p[i], head[j]);
+                sum.add(!minus, p[i], tail[j]);
+                sum.add(!minus, p[j], head[i]);
+                sum.add(minus, p[j], tail[i]);
+            }
+            if (const int sign = sum.sign(); sign != 0) return sign;
+        }
+        return 0;
+    }
+
+    /// Component k of (b - a) x (c - a), as a x b + b x c + c x a.
+    static Accumulator wide_normal(const OddPoint& a, const OddPoint& b, const OddPoint& c, std::size_t k, const Lattice& lattice) {
+        const std::size_t i = (k + 1) % 3;
+        const std::size_t j = (k + 2) % 3;
+        Accumulator sum(lattice, 2);
+        for (const auto& [p, q] : {std::pair{&a, &b}, {&b, &c}, {&c, &a}}) {
+            sum.add(false, (*p)[i], (*q)[j]);
+            sum.add(true, (*p)[j], (*q)[i]);
+        }
+        return sum;
+    }
+
+  private:
+    // (b - a) x (c - a) . (x - a) is minus the determinant of the rows (p, 1), p = a, b, c, x. By Laplace along two pairs of columns, x y and
+    // z 1: for each pair of rows i < j with the others k < l, (-1)^(i+j+1) (x_i y_j - x_j y_i) (z_k - z_l).
+    [[nodiscard]] Accumulator volume(const OddPoint& a, const OddPoint& b, const OddPoint& c, const OddPoint& x) const {
+        Accumulator sum(lattice_, 3);
+        const auto rows = [&sum](bool minus, const OddPoint& i, const OddPoint& j, const OddPoint& k, const OddPoint& l) {
+            sum.add(minus, i[0], j[1], k[2], l[2]);
+            sum.add(!minus, j[0], i[1], k[2], l[2]);
+        };
+        rows(true, a, b, c, x);
+        rows(false, a, c, b, x);
+        rows(true, a, x, b, c);
+        rows(true, b, c, a, x);
+        rows(false, b, x, a, c);
+        rows(true, c, x, a, b);
+        return sum;
+    }
+
+    Lattice lattice_;
+    OddPoint from_;
+    OddPoint to_;
+    OddPoint corner_[3];
 };
 
 [[nodiscard]] inline Lattice lattice_of(const Path& path, const Corners& corners) {
@@ -54,12 +131,13 @@ class Volumes {
     return lattice;
 }
 
-/// Calls `f` with the `Volumes` of a segment and a triangle, in the least width that holds them.
+/// Calls `f` with the `Volumes` of a segment and a triangle, in the least width that holds them, else its `WideVolumes`.
 template <class F>
 decltype(auto) with_volumes(const Path& path, const Corners& corners, F&& f) {
     const Lattice lattice = lattice_of(path, corners);
     return with_limbs(lattice.bits(),
-                      [&]<int N>(std::integral_constant<int, N>) { return f(Volumes<N>(path, corners, lattice)); });
+                      [&]<int N>(std::integral_constant<int, N>) { return f(Volumes<N>(path, corners, lattice)); },
+                      [&] { return f(WideVolumes(path, corners, lattice)); });
 }
 
 }  // namespace pierce::detail

@@ -27,8 +27,13 @@ template <class Scalar>
                                        QueryCounters& counters) {
     if (x.latest < y.earliest) return true;
     if (y.latest < x.earliest || x.triangle == y.triangle) return false;
-    ++counters.exact_orders;
-    const int order = compare_fractions(path, scene.corners(x.triangle), scene.corners(y.triangle));
+    const Corners of_x = scene.corners(x.triangle);
+    const Corners of_y = scene.corners(y.triangle);
+    int order = 0;
+    if (!same_place(of_x, x.decision, of_y, y.decision)) {
+        ++counters.exact_orders;
+        order = compare_fractions(path, of_x, of_y);
+    }
     if (order != 0) return order < 0;
     const std::uint32_t face_x = scene.face_of(x.triangle);
     const std::uint32_t face_y = scene.face_of(y.triangle);

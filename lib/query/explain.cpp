@@ -47,12 +47,13 @@ FaceVerdict refusal(const Scene<Scalar>& scene, const Path& path, std::uint32_t 
         with_volumes(path, corners, [&](const auto& volumes) {
             const int from = volumes.from_side().sign();
             const int to = volumes.to_side().sign();
-            const bool front = from >= 0 && to < 0;
-            const bool back = from <= 0 && to > 0;
+            const bool front = passes_front(from, to);
+            const bool back = passes_back(from, to, options.sides);
             if (from == 0 && to == 0) {
                 verdict.reason = Reason::in_plane;
             } else if (!front && !back) {
-                verdict.reason = from > 0 ? Reason::in_front : Reason::behind;
+                // 0 goes behind or in front, and both rules for one side call that a passage; `both` only the former.
+                verdict.reason = from >= 0 ? Reason::in_front : Reason::behind;
             } else if ((front && options.sides == Sides::back) || (back && options.sides == Sides::front)) {
                 verdict.reason = Reason::wrong_side;
             } else {

@@ -53,14 +53,14 @@ template <class Scalar>
 }
 
 /// Sets `fraction` and `point` of a hit so that the segment from -> point has no hit: none of the hit's own triangle, as the point
-/// stays on the near side of its plane or on it (`side(point)`), and none of any other, which `clear(point)` says. `from` itself
+/// stays on the near side of its plane or, where that is no passage, on it (`side(point)`), and none of any other, which `clear(point)` says. `from` itself
 /// needs no proof. Returns how many points were tried and not taken.
 ///
 /// The rounded point of a true hit lies behind the face about half of the time. The first to be tried is that point; then, along
 /// the segment, one moved back by as much as rounding can have moved the point through the plane; then four times
 /// as far each time.
 template <class Scalar, class Side, class Clear>
-int verify(Hit<Scalar>& hit, const Path& path, const Point& normal, Side&& side, Clear&& clear) {
+int verify(Hit<Scalar>& hit, const Path& path, const Point& normal, Sides sides, Side&& side, Clear&& clear) {
     double rate = 0;   // of the distance from the plane, in units of |normal|, along the whole segment
     double noise = 0;  // what rounding a point's coordinates can do to that distance
     for (std::size_t k = 0; k < 3; ++k) {
@@ -73,6 +73,8 @@ int verify(Hit<Scalar>& hit, const Path& path, const Point& normal, Side&& side,
     if (!(back > 0)) back = 1;
 
     const int outside = hit.side == Sides::front ? 1 : -1;
+    // Where both sides count, a point on the plane is in front of it: to get there from the back is a hit.
+    const int least = sides == Sides::both && hit.side == Sides::back ? 1 : 0;
     const auto exact = static_cast<double>(hit.exact_fraction);
     int tries = 0;
     // Two steps below the rounded fraction is below the true one; among denormal numbers a step is no longer relative.
@@ -83,7 +85,7 @@ int verify(Hit<Scalar>& hit, const Path& path, const Point& normal, Side&& side,
         hit.point = point_at(path, hit.fraction);
         const Point point = to_point(hit.point);
         if (point == path.from) break;
-        if (side(point) * outside >= 0 && clear(point)) return tries;
+        if (side(point) * outside >= least && clear(point)) return tries;
         fraction = exact - back;
         back *= 4;
     }

@@ -21,6 +21,7 @@ struct Case {
     V to;
     bool front;
     bool back;
+    bool both;  // a change of side, on the plane counting as in front
 };
 
 TEST(Contract, sides_ends_and_planes) {
@@ -31,34 +32,60 @@ TEST(Contract, sides_ends_and_planes) {
     //         to    back
     const CollisionMesh<double> mesh(triangle().view());
     const Case cases[] = {
-        {"from the front through the face", {1, 1, 1}, {1, 1, -1}, true, false},
-        {"from the back through the face", {1, 1, -1}, {1, 1, 1}, false, true},
-        {"starts on the face, goes in", {1, 1, 0}, {1, 1, -1}, true, false},
-        {"starts on the face, goes out", {1, 1, 0}, {1, 1, 1}, false, true},
-        {"ends on the face, from the front", {1, 1, 1}, {1, 1, 0}, false, false},
-        {"ends on the face, from the back", {1, 1, -1}, {1, 1, 0}, false, false},
-        {"stays in front", {1, 1, 2}, {1, 1, 1}, false, false},
-        {"stays behind", {1, 1, -1}, {1, 1, -2}, false, false},
-        {"in the plane, across", {-1, 1, 0}, {5, 1, 0}, false, false},
-        {"in the plane, along an edge", {0, 0, 0}, {4, 0, 0}, false, false},
-        {"of length zero, on the face", {1, 1, 0}, {1, 1, 0}, false, false},
-        {"of length zero, in space", {1, 1, 1}, {1, 1, 1}, false, false},
-        {"through an edge, from the front", {1, 0, 1}, {1, 0, -1}, true, false},
-        {"through the slanted edge, from the back", {1, 3, -1}, {3, 1, 1}, false, true},
-        {"through a corner, from the front", {0, 0, 1}, {0, 0, -1}, true, false},
-        {"starts on a corner, goes in", {4, 0, 0}, {4, 1, -1}, true, false},
-        {"past an edge", {1, -1e-300, 1}, {1, -1e-300, -1}, false, false},
-        {"past a corner by the least there is", {4, 0, 1}, {std::nextafter(4.0, 5.0), 0, -1}, false, false},
+        {"from the front through the face", {1, 1, 1}, {1, 1, -1}, true, false, true},
+        {"from the back through the face", {1, 1, -1}, {1, 1, 1}, false, true, true},
+        {"starts on the face, goes in", {1, 1, 0}, {1, 1, -1}, true, false, true},
+        {"starts on the face, goes out", {1, 1, 0}, {1, 1, 1}, false, true, false},
+        {"ends on the face, from the front", {1, 1, 1}, {1, 1, 0}, false, false, false},
+        {"ends on the face, from the back", {1, 1, -1}, {1, 1, 0}, false, false, true},
+        {"stays in front", {1, 1, 2}, {1, 1, 1}, false, false, false},
+        {"stays behind", {1, 1, -1}, {1, 1, -2}, false, false, false},
+        {"in the plane, across", {-1, 1, 0}, {5, 1, 0}, false, false, false},
+        {"in the plane, along an edge", {0, 0, 0}, {4, 0, 0}, false, false, false},
+        {"of length zero, on the face", {1, 1, 0}, {1, 1, 0}, false, false, false},
+        {"of length zero, in space", {1, 1, 1}, {1, 1, 1}, false, false, false},
+        {"through an edge, from the front", {1, 0, 1}, {1, 0, -1}, true, false, true},
+        {"through the slanted edge, from the back", {1, 3, -1}, {3, 1, 1}, false, true, true},
+        {"through a corner, from the front", {0, 0, 1}, {0, 0, -1}, true, false, true},
+        {"starts on a corner, goes in", {4, 0, 0}, {4, 1, -1}, true, false, true},
+        {"past an edge", {1, -1e-300, 1}, {1, -1e-300, -1}, false, false, false},
+        {"past a corner by the least there is", {4, 0, 1}, {std::nextafter(4.0, 5.0), 0, -1}, false, false, false},
     };
     for (const Case& c : cases) {
         const S segment{c.from, c.to};
         EXPECT_EQ(mesh.any_hit(segment), c.front) << c.what;
         EXPECT_EQ(mesh.any_hit(segment, {.sides = Sides::back}), c.back) << c.what;
-        EXPECT_EQ(mesh.any_hit(segment, {.sides = Sides::both}), c.front || c.back) << c.what;
+        EXPECT_EQ(mesh.any_hit(segment, {.sides = Sides::both}), c.both) << c.what;
         const auto hit = mesh.first_hit(segment, {.sides = Sides::both});
-        ASSERT_EQ(hit.has_value(), c.front || c.back) << c.what;
+        ASSERT_EQ(hit.has_value(), c.both) << c.what;
         EXPECT_TRUE(!hit || hit->side == (c.front ? Sides::front : Sides::back)) << c.what;
     }
+}
+
+// A hit from the back on a plane that the exact fraction rounds to: a point on that plane is in front of it already.
+TEST(Contract, from_both_sides_the_point_stays_on_its_own) {
+    const CollisionMesh<double> mesh(triangle().view());
+    for (const double to : {0.0, 1e-300, 1e-9, 1.0, 3.0}) {
+        const S up{V(1, 1, -1), V(1.25, 1, to)};
+        const auto hit = mesh.first_hit(up, {.sides = Sides::both});
+        ASSERT_TRUE(hit) << to;
+        EXPECT_EQ(hit->side, Sides::back);
+        EXPECT_LT(hit->point[2], 0) << to;
+        EXPECT_FALSE(mesh.any_hit({up.from, hit->point}, {.sides = Sides::both})) << to;
+        EXPECT_TRUE(mesh.any_hit({hit->point, up.to}, {.sides = Sides::both})) << to;
+    }
+}
+
+// A point that rests on the plane, in the face, on an edge and on a corner, leaves it to the front and stops at it to the back.
+TEST(Contract, from_both_sides_a_resting_point_leaves_to_the_front) {
+    const CollisionMesh<double> mesh(triangle().view());
+    for (const V& at : {V(1, 1, 0), V(2, 0, 0), V(2, 2, 0), V(0, 0, 0), V(4, 0, 0)})
+        for (const double dx : {-1.0, 0.0, 1e-3}) {
+            EXPECT_FALSE(mesh.any_hit({at, at + V(dx, 0, 1e-300)}, {.sides = Sides::both})) << at.transpose();
+            EXPECT_FALSE(mesh.any_hit({at, at + V(dx, 0, 0)}, {.sides = Sides::both})) << at.transpose();
+            EXPECT_TRUE(mesh.any_hit({at, at + V(dx, 0, -1e-300)}, {.sides = Sides::both})) << at.transpose();
+            EXPECT_TRUE(mesh.any_hit({at + V(dx, 0, -1e-300), at}, {.sides = Sides::both})) << "back onto it";
+        }
 }
 
 TEST(Contract, features_and_values) {
@@ -307,6 +334,7 @@ void expect_verified(const TriangleSoup<Scalar>& soup, std::uint64_t seed) {
     Random random(seed);
     int hits = 0;
     int moved_at_all = 0;
+    int faces = 0;
     int stopped_again = 0;
     int near = 0;
     for (int i = 0; i < 20'000; ++i) {
@@ -325,12 +353,15 @@ void expect_verified(const TriangleSoup<Scalar>& soup, std::uint64_t seed) {
         const double length = (segment.to.template cast<double>() - from).norm();
         const double unit = std::numeric_limits<Scalar>::epsilon() * from.cwiseAbs().maxCoeff();
         near += double(hit->exact_fraction - hit->fraction) * length <= 8 * unit ? 1 : 0;
-        // Who goes on from there is stopped again, unless it only grazed an edge that rounding moved it past.
+        // Who goes on from there is stopped again; at an edge not always, where it only grazed what rounding moved it past.
+        if (hit->feature != Feature::face) continue;
+        ++faces;
         stopped_again += mesh.any_hit({hit->point, segment.to}, options) ? 1 : 0;
     }
     EXPECT_GT(hits, 2000);
     EXPECT_GT(moved_at_all, hits / 2);
-    EXPECT_GT(stopped_again, hits * 0.98);
+    EXPECT_GT(faces, hits / 4);
+    EXPECT_GT(stopped_again, faces * 0.98);
     EXPECT_GT(near, hits * 0.9);
 }
 

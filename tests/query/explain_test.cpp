@@ -31,11 +31,11 @@ FaceVerdict expected(const Pair& pair, Sides sides) {
     const int from = CGAL::sign(exact.from_side());
     const int to = CGAL::sign(exact.to_side());
     const bool front = from >= 0 && to < 0;
-    const bool back = from <= 0 && to > 0;
+    const bool back = sides == Sides::both ? from < 0 && to >= 0 : from <= 0 && to > 0;
     if (exact.zero_area()) verdict.reason = Reason::zero_area;
     else if (from == 0 && to == 0) verdict.reason = Reason::in_plane;
     else if (from >= 0 && to >= 0 && !back) verdict.reason = Reason::in_front;
-    else if (from <= 0 && to <= 0 && !front) verdict.reason = Reason::behind;
+    else if (from <= 0 && to <= 0 && !front && !back) verdict.reason = Reason::behind;
     else if ((front && sides == Sides::back) || (back && sides == Sides::front)) verdict.reason = Reason::wrong_side;
     else
         for (std::size_t edge = 0; edge < 3; ++edge)
@@ -99,7 +99,8 @@ TEST(ExplainReasons, in_small_cases) {
             if (v.face == 0) return v;
         return FaceVerdict{9, 9, Reason::apart};
     };
-    EXPECT_EQ(verdict(V(1, 1, -2), V(1, 1, 0)).reason, Reason::behind) << "ends on the face";
+    EXPECT_EQ(verdict(V(1, 1, -2), V(1, 1, 0)).reason, Reason::first_hit) << "ends on the face, which is a change of side";
+    EXPECT_EQ(verdict(V(1, 1, 0), V(1, 1, 2)).reason, Reason::in_front) << "leaves the face to the front";
     EXPECT_EQ(verdict(V(1, 1, 2), V(1, 1, 0)).reason, Reason::in_front) << "ends on the face";
     for (const double from : {1.0, -1.0}) {
         const auto through = [&](double x, double y, double dx, double dy) {

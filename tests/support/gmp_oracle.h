@@ -24,13 +24,13 @@ class GmpOracle {
     GmpOracle(const GmpOracle&) = delete;
     GmpOracle& operator=(const GmpOracle&) = delete;
 
-    /// +1 for a hit from the front, -1 for one from the back, 0 for none, by the closed rule.
+    /// +1 for a hit from the front, -1 for one from the back, 0 for none, where both sides count.
     int hit_side(const detail::Path& path, const detail::Corners& corners) {
         load({path.from, path.to, corners[0], corners[1], corners[2]});
         const int from = -orientation(k_from, k_a, k_b, k_c);
         const int to = -orientation(k_to, k_a, k_b, k_c);
-        if (!(from >= 0 && to < 0) && !(from <= 0 && to > 0)) return 0;
-        const int side = from > 0 || (from == 0 && to < 0) ? 1 : -1;
+        if (!(from >= 0 && to < 0) && !(from < 0 && to >= 0)) return 0;
+        const int side = from >= 0 ? 1 : -1;
         // The line from -> to passes an edge on its inner side if the tetrahedron of the four points is turned that way.
         for (const auto& [u, v] : {std::array{k_a, k_b}, {k_b, k_c}, {k_c, k_a}})
             if (-orientation(k_from, k_to, u, v) * side < 0) return 0;

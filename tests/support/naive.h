@@ -122,7 +122,7 @@ class NaiveMesh {
             return true;
         };
         const auto side = [&](const detail::Point& point) { return detail::side_of(corners_[triangle], point); };
-        detail::verify(hit, path, normal, side, clear);
+        detail::verify(hit, path, normal, options.sides, side, clear);
         return hit;
     }
 

@@ -25,7 +25,8 @@ class CgalOracle {
         const CGAL::Orientation from = CGAL::orientation(a_, b_, c_, from_);
         const CGAL::Orientation to = CGAL::orientation(a_, b_, c_, to_);
         const bool front = sides != Sides::back && from != CGAL::NEGATIVE && to == CGAL::NEGATIVE;
-        const bool back = sides != Sides::front && from != CGAL::POSITIVE && to == CGAL::POSITIVE;
+        bool back = sides == Sides::back && from != CGAL::POSITIVE && to == CGAL::POSITIVE;
+        if (sides == Sides::both) back = from == CGAL::NEGATIVE && to != CGAL::NEGATIVE;
         return (front || back) && CGAL::do_intersect(Kernel::Segment_3(from_, to_), Kernel::Triangle_3(a_, b_, c_));
     }
 
@@ -73,7 +74,8 @@ class RationalOracle {
     [[nodiscard]] bool hit(Sides sides) const {
         if (!pierces_) return false;
         const bool front = sides != Sides::back && from_side_ >= 0 && to_side_ < 0;
-        const bool back = sides != Sides::front && from_side_ <= 0 && to_side_ > 0;
+        bool back = sides == Sides::back && from_side_ <= 0 && to_side_ > 0;
+        if (sides == Sides::both) back = from_side_ < 0 && to_side_ >= 0;
         return (front || back) && weight_[0] >= 0 && weight_[1] >= 0 && weight_[2] >= 0;
     }
     /// Of the point where the line meets the plane, for a hit.

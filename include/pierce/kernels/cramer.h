@@ -37,7 +37,7 @@ struct Cramer {
         Mask<Number> hit = whole > Number{};
         if (none(hit)) return {hit};
         const Number t = turn(of_columns(d, b, c));
-        hit = hit & (t >= Number{}) & (t < whole);
+        hit = hit & turn.passes(t, whole);
         if (none(hit)) return {hit};
         const Number u = turn(of_columns(a, d, c));
         hit = hit & (u >= Number{}) & (u <= whole);

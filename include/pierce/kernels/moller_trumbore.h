@@ -47,7 +47,7 @@ struct MollerTrumbore {
         hit = hit & (v >= Number{}) & ((det - u) - v >= Number{});
         if (none(hit)) return {hit};
         const Number fraction = turn(dot(e2, q));
-        hit = hit & (fraction >= Number{}) & (fraction < det);
+        hit = hit & turn.passes(fraction, det);
         if (none(hit)) return {hit};
         return divided(hit, fraction, u, v, det);
     }

@@ -98,7 +98,7 @@ template <class Number>
     return {hit, fraction / d, u / d, v / d};
 }
 
-/// The heights of a segment's ends over a plane, turned so that an accepted segment comes from above: from >= 0 > to.
+/// The heights of a segment's ends over a plane, turned so that an accepted segment comes from above: from >= 0 >= to, from > to.
 template <class Number>
 struct Passage {
     Mask<Number> hit;
@@ -106,14 +106,16 @@ struct Passage {
     Number to;
 };
 
-/// Bloom's rule for the plane: the start on it counts as in front of it, the end has to be behind. For the back the same, mirrored.
+/// Bloom's rule for the plane: the start on it counts as in front of it, the end has to be behind. For the back the same, mirrored; for
+/// both a change of side, where on the plane counts as in front (`Sides`).
 template <class Number>
 [[nodiscard]] constexpr Passage<Number> passage(const Number& from, const Number& to, Sides sides) {
     const Number zero{};
     const Mask<Number> front = (from >= zero) & (to < zero);
     if (sides == Sides::front) return {front, from, to};
-    const Mask<Number> back = (from <= zero) & (to > zero);
-    if (sides == Sides::back) return {back, -from, -to};
+    const bool mirrored = sides == Sides::back;
+    const Mask<Number> back = mirrored ? (from <= zero) & (to > zero) : (from < zero) & (to >= zero);
+    if (mirrored) return {back, -from, -to};
     const Mask<Number> either = front | back;
     return {either, select(back, -from, from), select(back, -to, to)};
 }
@@ -123,14 +125,24 @@ template <class Number>
 template <class Number>
 class Turning {
   public:
-    Turning(const Number& determinant, Sides sides) : sides_(sides), negative_(determinant < Number{}) {}
+    Turning(const Number& determinant, Sides sides)
+        : sides_(sides), positive_(determinant > Number{}), negative_(determinant < Number{}) {}
 
     [[nodiscard]] Number operator()(const Number& x) const {
         return sides_ == Sides::front ? x : sides_ == Sides::back ? -x : select(negative_, -x, x);
     }
 
+    /// Whether a fraction is that of a passage: 0 <= t < 1, both sides of it turned and times the determinant. For a passage from the back
+    /// where both sides count, 0 < t <= 1: its start on the plane is in front already, and its end on the plane is in front.
+    [[nodiscard]] Mask<Number> passes(const Number& t, const Number& determinant) const {
+        const Mask<Number> hit = (t >= Number{}) & (t < determinant);
+        if (sides_ != Sides::both) return hit;
+        return (positive_ & hit) | (negative_ & (t > Number{}) & (t <= determinant));
+    }
+
   private:
     Sides sides_;
+    Mask<Number> positive_;
     Mask<Number> negative_;
 };
 

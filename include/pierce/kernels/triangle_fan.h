@@ -132,12 +132,14 @@ struct TriangleFan {
     }
 
   private:
-    /// The start is in front or on the plane, and the end, whose height is w - back_w, behind it; from the back the same, mirrored.
+    /// The start is in front or on the plane, and the end, whose height is w - back_w, behind it; from the back the same,
+    /// mirrored; for both a change of side, where on the plane counts as in front.
     template <class Number>
     [[nodiscard]] bool passes(const Number& w, const Number& back_w) const {
         const bool down = w >= Number{} && w < back_w;
-        const bool up = w <= Number{} && w > back_w;
-        return sides == Sides::front ? down : sides == Sides::back ? up : down || up;
+        if (sides == Sides::front) return down;
+        if (sides == Sides::back) return w <= Number{} && w > back_w;
+        return down || (w < Number{} && w >= back_w);
     }
 
     /// A coordinate along the line: of its start, and of the way back from its end.

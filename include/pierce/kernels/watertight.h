@@ -91,7 +91,7 @@ struct Watertight {
         const Number det = turn(area);
         hit = hit & (det > zero);
         const Number fraction = turn(u * (shear_z * a[2]) + v * (shear_z * b[2]) + w * (shear_z * c[2]));
-        hit = hit & (fraction >= zero) & (fraction < det);
+        hit = hit & turn.passes(fraction, det);
         if (none(hit)) return {hit};
         return divided(hit, fraction, turn(v), turn(w), det);
     }
