@@ -24,9 +24,10 @@ struct MeshStatistics {
     std::size_t faces = 0;      ///< of the caller: different numbers in `MeshView::faces`
     std::size_t triangles = 0;
     std::size_t degenerate = 0; ///< triangles of area exactly zero: kept, and never hit
-    std::size_t grid_levels = 0;     ///< uniform grids, by the size of what they hold
-    double cell_size = 0;            ///< of the finest
-    std::size_t grid_references = 0; ///< entries of all cell lists together
+    std::size_t clusters = 0;        ///< records of up to eight triangles
+    std::size_t nodes = 0;           ///< of the tree; 0 with a grid
+    double cell_size = 0;            ///< of the grid; 0 with a tree
+    std::size_t grid_references = 0; ///< entries of all its cell lists together
     std::string_view backend;        ///< the instruction set of the wide kernels
     std::size_t bytes = 0;
     std::uint64_t invalid_queries = 0; ///< queries so far with a coordinate that is NaN or infinite: they had no hit

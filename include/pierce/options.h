@@ -13,14 +13,20 @@
 
 namespace pierce {
 
+/// How the triangles near a segment are found. The answers are the same, to the last bit.
+enum class Broadphase : std::uint8_t {
+    tree,  ///< a tree of boxes with sixteen children a node: the faster one, whatever the mesh and the segments
+    grid,  ///< one uniform grid
+};
+
 /// None of these changes an answer: they trade memory and build time for query time.
 struct BuildOptions {
-    /// The edge of a cell of the finest grid. Zero leaves it to the library, which looks at the triangles' sizes.
+    Broadphase broadphase = Broadphase::tree;
+    /// For the grid: the edge of a cell. Zero leaves it to the library, which looks at the triangles' sizes.
     double cell_size = 0;
-    /// An upper bound for the memory of the grids, kept by larger cells. Zero stands for 96 bytes a triangle, and for 64 KiB where that is
-    /// more. One cell for each size of triangles, with 12 bytes a triangle, is always made.
+    /// For the grid: an upper bound for its memory, kept by larger cells. Zero stands for a multiple of the triangles' number.
     std::size_t max_grid_bytes = 0;
-    /// Which wide kernels to use: `sse2`, `avx2`, `avx512`, `neon`, `plain`. If it is empty, the environment variable PIERCE_BACKEND says, and
+    /// Which wide kernels to use: `sse2`, `avx2`, `neon`, `plain`. If it is empty, the environment variable PIERCE_BACKEND says, and
     /// without that the machine's fastest. Building throws std::invalid_argument where the machine has none of the name.
     std::string_view backend = {};
     /// Builds in parallel, if given.
@@ -31,8 +37,9 @@ struct BuildOptions {
 /// for each thread.
 struct QueryCounters {
     std::uint64_t queries = 0;
-    std::uint64_t cells = 0;           ///< grid cells visited
-    std::uint64_t triangles = 0;       ///< triangles given to the kernel; a triangle counts once for each cell
+    std::uint64_t nodes = 0;           ///< nodes of the tree, or cells of the grid, visited
+    std::uint64_t clusters = 0;        ///< clusters of up to eight triangles given to the wide kernels
+    std::uint64_t triangles = 0;       ///< triangles that those could not refuse
     std::uint64_t exact_decisions = 0; ///< triangles that the filter left doubtful
     std::uint64_t exact_orders = 0;    ///< pairs of hits too close to be ordered without exact arithmetic
     std::uint64_t exact_values = 0;    ///< times that a hit's fraction and weights, or its normal, took exact arithmetic

@@ -8,7 +8,7 @@
 namespace pierce::detail {
 
 struct Candidate {
-    std::uint32_t triangle = 0;
+    TriangleRef triangle;
     Decision decision;
     /// An interval that contains the exact fraction.
     double earliest = 0;
@@ -16,7 +16,7 @@ struct Candidate {
 };
 
 /// The interval around a fraction that was rounded once from its exact value: within 1 ulp, or two steps where it is denormal.
-[[nodiscard]] inline Candidate exact_candidate(std::uint32_t triangle, const Decision& decision, double fraction) {
+[[nodiscard]] inline Candidate exact_candidate(TriangleRef triangle, const Decision& decision, double fraction) {
     const double slack = fraction * 0x1p-52 + 0x1p-1072;
     return {triangle, decision, fraction - slack, fraction + slack};
 }
@@ -30,14 +30,14 @@ template <class Scalar>
     const Corners of_x = scene.corners(x.triangle);
     const Corners of_y = scene.corners(y.triangle);
     int order = 0;
-    if (!same_place(of_x, x.decision, of_y, y.decision)) {
+    if (of_x != of_y && !same_place(of_x, x.decision, of_y, y.decision)) {  // duplicates are common in what people model
         ++counters.exact_orders;
         order = compare_fractions(path, of_x, of_y);
     }
     if (order != 0) return order < 0;
     const std::uint32_t face_x = scene.face_of(x.triangle);
     const std::uint32_t face_y = scene.face_of(y.triangle);
-    return face_x != face_y ? face_x < face_y : scene.triangle_numbers[x.triangle] < scene.triangle_numbers[y.triangle];
+    return face_x != face_y ? face_x < face_y : scene.number_of(x.triangle) < scene.number_of(y.triangle);
 }
 
 }  // namespace pierce::detail

@@ -14,13 +14,11 @@ namespace pierce::detail {
 template <class Scalar>
 class First {
   public:
-    static constexpr bool once = false;
-
     First(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters)
         : scene_(scene), path_(path), counters_(counters) {}
 
     [[nodiscard]] double limit() const { return best().latest; }
-    [[nodiscard]] bool wants(std::uint32_t) const { return true; }
+    [[nodiscard]] bool wants(TriangleRef) const { return true; }
     [[nodiscard]] Candidate& room() { return candidates_[1 - best_]; }
     void add() {
         if (found_ && !comes_before(scene_, path_, room(), best(), counters_)) return;
@@ -43,67 +41,55 @@ class First {
 template <class Passed>
 class Any {
   public:
-    static constexpr bool once = false;
-    static constexpr std::uint32_t k_no_triangle = ~std::uint32_t{0};
-
-    explicit Any(Passed passed, std::uint32_t own = k_no_triangle) : passed_(passed), own_(own) {}
+    explicit Any(Passed passed, TriangleRef own = {}) : passed_(passed), own_(own) {}
 
     [[nodiscard]] double limit() const { return found_ ? -1 : 1; }
-    [[nodiscard]] bool wants(std::uint32_t triangle) const { return !found_ && triangle != own_; }
+    [[nodiscard]] bool wants(TriangleRef triangle) const { return !found_ && triangle != own_; }
     [[nodiscard]] Candidate& room() { return candidate_; }
     void add() { found_ = !passed_(candidate_.triangle); }
     [[nodiscard]] bool found() const { return found_; }
 
   private:
     Passed passed_;
-    std::uint32_t own_;
+    TriangleRef own_;
     Candidate candidate_;
     bool found_ = false;
 };
 
-/// Counts every hit and keeps the first ones, in order, in `out`. Of those it fills what it needs itself: triangle (the library's number), feature, side,
-/// at_start and exact_fraction.
+/// Counts every hit and keeps the first ones in `out`: as a heap with the last of them on top (Williams 1964), so that the time is n log n in the
+/// hits met; `sort` puts them in order. Of each it fills what it needs itself: the place of the triangle (cluster in `triangle`, lane in `face`),
+/// feature, side, at_start and exact_fraction.
 template <class Scalar>
 class All {
   public:
-    static constexpr bool once = true;
-
     All(const Scene<Scalar>& scene, const Path& path, std::span<Hit<Scalar>> out, QueryCounters& counters)
         : scene_(scene), path_(path), out_(out), counters_(counters) {}
 
     [[nodiscard]] double limit() const { return 1; }
-    [[nodiscard]] bool wants(std::uint32_t) const { return true; }
+    [[nodiscard]] bool wants(TriangleRef) const { return true; }
     [[nodiscard]] Candidate& room() { return candidate_; }
     void add() {
-        const Candidate& candidate = candidate_;
         ++total_;
-        // Insertion from the end: hits come roughly in order.
-        std::size_t place = kept_;
-        while (place > 0 && comes_before(scene_, path_, candidate, kept(place - 1), counters_)) --place;
-        if (place == out_.size()) return;
-        if (kept_ < out_.size()) ++kept_;
-        std::move_backward(out_.begin() + static_cast<std::ptrdiff_t>(place),
-                           out_.begin() + static_cast<std::ptrdiff_t>(kept_ - 1),
-                           out_.begin() + static_cast<std::ptrdiff_t>(kept_));
-        Hit<Scalar>& hit = out_[place];
-        hit.triangle = candidate.triangle;
-        hit.side = candidate.decision.side;
-        hit.feature = candidate.decision.feature;
-        hit.feature_index = candidate.decision.feature_index;
-        hit.at_start = candidate.decision.at_start;
-        hit.exact_fraction = static_cast<Scalar>(
-            CertifiedFace<Scalar>(scene_.corners(candidate.triangle), counters_).measures(path_, candidate.decision).fraction);
+        if (out_.empty()) return;
+        if (kept_ < out_.size()) {
+            write(out_[kept_++]);
+            std::push_heap(out_.begin(), out_.begin() + static_cast<std::ptrdiff_t>(kept_), before());
+        } else if (comes_before(scene_, path_, candidate_, candidate_of(out_[0]), counters_)) {
+            std::pop_heap(out_.begin(), out_.end(), before());
+            write(out_.back());
+            std::push_heap(out_.begin(), out_.end(), before());
+        }
     }
+    void sort() { std::sort_heap(out_.begin(), out_.begin() + static_cast<std::ptrdiff_t>(kept_), before()); }
     [[nodiscard]] std::size_t total() const { return total_; }
     [[nodiscard]] std::size_t kept_count() const { return kept_; }
 
     /// A kept hit as a candidate again: its fraction was rounded to `Scalar` on top.
-    [[nodiscard]] Candidate kept(std::size_t i) const {
-        const Hit<Scalar>& hit = out_[i];
+    [[nodiscard]] static Candidate candidate_of(const Hit<Scalar>& hit) {
         const auto fraction = static_cast<double>(hit.exact_fraction);
         const double slack = fraction * static_cast<double>(std::numeric_limits<Scalar>::epsilon()) * 2 +
                              static_cast<double>(std::numeric_limits<Scalar>::denorm_min()) * 4;
-        return {hit.triangle,
+        return {{hit.triangle, hit.face},
                 {.hit = true, .side = hit.side, .feature = hit.feature, .feature_index = hit.feature_index,
                  .at_start = hit.at_start},
                 fraction - slack,
@@ -111,6 +97,22 @@ class All {
     }
 
   private:
+    auto before() {
+        return [this](const Hit<Scalar>& x, const Hit<Scalar>& y) {
+            return comes_before(scene_, path_, candidate_of(x), candidate_of(y), counters_);
+        };
+    }
+    void write(Hit<Scalar>& hit) {
+        hit.triangle = candidate_.triangle.cluster;
+        hit.face = candidate_.triangle.lane;
+        hit.side = candidate_.decision.side;
+        hit.feature = candidate_.decision.feature;
+        hit.feature_index = candidate_.decision.feature_index;
+        hit.at_start = candidate_.decision.at_start;
+        hit.exact_fraction = static_cast<Scalar>(
+            CertifiedFace<Scalar>(scene_.corners(candidate_.triangle), counters_).measures(path_, candidate_.decision).fraction);
+    }
+
     const Scene<Scalar>& scene_;
     const Path& path_;
     std::span<Hit<Scalar>> out_;

@@ -111,13 +111,13 @@ MeshReport CollisionMesh<Scalar>::mesh_report() const {
     const StandardArithmetic standard;
     const Scene<Scalar>& scene = impl_->scene;
     // A vertex that no triangle has is taken for one that some has: nothing is said about it.
-    std::vector<Point> positions(scene.vertex_count, scene.triangles.empty() ? Point{} : scene.corners(0)[0]);
-    std::vector<IndexTriple> triangles(scene.triangles.size());
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-        const Corners corners = scene.corners(i);
-        triangles[scene.triangle_numbers[i]] = scene.triangles[i];
-        for (std::size_t k = 0; k < 3; ++k) positions[scene.triangles[i][k]] = corners[k];
-    }
+    std::vector<Point> positions(scene.vertex_count, scene.bounds.low);
+    const auto place = [&](std::uint32_t number, const Corners& corners) {
+        for (std::size_t k = 0; k < 3; ++k) positions[scene.triangles[number][k]] = corners[k];
+    };
+    scene.each_triangle([&](TriangleRef triangle) { place(scene.number_of(triangle), scene.corners(triangle)); });
+    for (const auto& [number, corners] : scene.degenerate) place(number, corners);
+    const std::span triangles(scene.triangles.data(), scene.triangles.size());
     return report_on(positions, triangles, std::numeric_limits<Scalar>::epsilon());
 }
 
@@ -128,10 +128,9 @@ MeshStatistics CollisionMesh<Scalar>::statistics() const noexcept {
     s.vertices = scene.vertex_count;
     s.faces = scene.face_count;
     s.triangles = scene.triangles.size();
-    s.degenerate = scene.degenerate;
-    s.grid_levels = scene.grid.levels().size();
-    for (const Level& level : scene.grid.levels()) s.grid_references += level.reference_count();
-    if (!scene.grid.empty()) s.cell_size = scene.grid.levels().front().raster().least_size();
+    s.degenerate = scene.degenerate.size();
+    s.clusters = scene.cluster_refs.size();
+    s.nodes = scene.tree.node_count;
     s.backend = scene.backend->name;
     s.bytes = scene.bytes();
     s.invalid_queries = impl_->invalid_queries.load(std::memory_order_relaxed);

@@ -17,7 +17,8 @@ constexpr std::size_t k_part = 1024;
 void add(QueryCounters& to, const QueryCounters& from) {
     const auto atomic_add = [](std::uint64_t& x, std::uint64_t y) { std::atomic_ref(x).fetch_add(y, std::memory_order_relaxed); };
     atomic_add(to.queries, from.queries);
-    atomic_add(to.cells, from.cells);
+    atomic_add(to.nodes, from.nodes);
+    atomic_add(to.clusters, from.clusters);
     atomic_add(to.triangles, from.triangles);
     atomic_add(to.exact_decisions, from.exact_decisions);
     atomic_add(to.exact_orders, from.exact_orders);

@@ -17,14 +17,8 @@ std::optional<Hit<Scalar>> first_hit(const Scene<Scalar>& scene, const Segment<S
 template <class Scalar>
 bool any_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
              QueryCounters& counters) {
-    const Path path = to_path(segment);
-    Ids ids;
-    const Near near = look_near(scene, path, 0, ids, counters);
-    if (near.count == 0) return false;
-    Search<Scalar> search(scene, path, options.sides);
     Any any(none_passed);
-    Shortlist unused;
-    traverse<Certified>(search, near, ids, options, counters, any, unused);
+    traverse<Certified>(scene, to_path(segment), options, counters, any);
     return any.found();
 }
 
@@ -32,13 +26,23 @@ template <class Scalar>
 std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
                      const QueryOptions& options, QueryCounters& counters) {
     const Path path = to_path(segment);
-    Search<Scalar> search(scene, path, options.sides);
     All<Scalar> all(scene, path, out, counters);
-    traverse<Certified>(search, options, counters, all);
+    traverse<Certified>(scene, path, options, counters, all);
+    all.sort();
+    TriangleRef before;
     for (std::size_t i = 0; i < all.kept_count(); ++i) {
-        const Candidate candidate = all.kept(i);
+        const Candidate candidate = All<Scalar>::candidate_of(out[i]);
+        // Duplicates of one triangle, one behind the other: but for their numbers the answer is the same.
+        if (i > 0 && scene.corners(candidate.triangle) == scene.corners(before)) {
+            before = candidate.triangle;
+            out[i] = out[i - 1];
+            out[i].triangle = scene.number_of(before);
+            out[i].face = scene.face_of(before);
+            continue;
+        }
+        before = candidate.triangle;
         // Hits that count and come strictly before. One that `accept` refuses on the way to `to` may count on the way to the point.
-        const auto passed = [&](std::uint32_t triangle) {
+        const auto passed = [&](TriangleRef triangle) {
             Candidate other;
             if (masked(scene, triangle, options)) return false;
             if (!Certified::test(scene.corners(triangle), triangle, path, options.sides, 1, counters, other)) return false;
@@ -54,17 +58,13 @@ std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
 
 namespace {
 
+// The move is infinitesimal: a path that does not even touch a closed triangle does not cross it when moved either.
 template <class Scalar>
 int crossings_of(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters) {
     int sum = 0;
-    Search<Scalar> search(scene, path, Sides::both);
-    // The move is infinitesimal: a path that does not even touch a closed triangle does not cross it when moved either.
-    visit_all_near(search, counters, [&](std::uint32_t* ids, unsigned count) {
-        Ids left;
-        const unsigned found = scene.backend->refine(search.probe(Certified::unit), scene.coordinates.data(), ids, count, left.data());
-        counters.triangles += count;
-        for (unsigned i = 0; i < found; ++i) {
-            const Corners corners = scene.corners(left[i]);
+    each_candidate(scene, path, Sides::both, 1, counters, [&](ClusterRef cluster, unsigned lanes) {
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const Corners corners = scene.corners({cluster, static_cast<std::uint32_t>(std::countr_zero(lanes))});
             const Filtered filtered = filter(corners, path, Sides::both);
             if (filtered.verdict == Verdict::hit) {
                 sum += filtered.side == Sides::front ? 1 : -1;
@@ -73,8 +73,37 @@ int crossings_of(const Scene<Scalar>& scene, const Path& path, QueryCounters& co
                 sum += crossing(path, corners);
             }
         }
+        return 1.0;
     });
     return sum;
+}
+
+/// The way out of the box that is shortest along an axis, tilted by some of its length along the two others: along an axis it
+/// would follow the edges that models have there, which only exact arithmetic can tell from crossings. It ends clearly outside: at the next
+/// number below 0 it would end among denormal numbers, and take the widest arithmetic. An end beyond the box along one axis has winding number 0,
+/// wherever it is along the others.
+[[nodiscard]] Path way_out(const Point& point, const Box& box) {
+    Path way{point, point};
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double margin = std::max({(box.high[k] - box.low[k]) * 0x1p-20, std::abs(box.low[k]) * 0x1p-40,
+                                        std::abs(box.high[k]) * 0x1p-40, std::numeric_limits<double>::min()});
+        for (const double target : {box.high[k] + margin, box.low[k] - margin}) {
+            const double distance = std::abs(target - point[k]);
+            // The first one is taken whatever its length, which may overflow.
+            if (!std::isfinite(target) || (way.to != point && !(distance < shortest))) continue;
+            shortest = distance;
+            way.to = point;
+            way.to[k] = target;
+            const double some = std::isfinite(distance) ? distance : 0;
+            for (std::size_t i = 1; i < 3; ++i) {
+                double& other = way.to[(k + i) % 3];
+                const double tilted = other + (i == 1 ? 0.0131 : 0.0277) * some;
+                if (std::isfinite(tilted)) other = tilted;
+            }
+        }
+    }
+    return way;
 }
 
 }  // namespace
@@ -87,25 +116,66 @@ int crossings(const Scene<Scalar>& scene, const Segment<Scalar>& segment, QueryC
 template <class Scalar>
 int winding_number(const Scene<Scalar>& scene, const Vec3<Scalar>& at, QueryCounters& counters) {
     const Point point = to_point(at);
-    if (scene.grid.empty()) return 0;
-    // Outside of the box, on the shortest way along an axis: in the infinitesimal step's sense a point on the box's upper side is
-    // outside already, since the step goes up; below, it must lie beyond by the least there is.
-    const Box& box = scene.grid.bounds();
-    Path way{point, point};
-    double shortest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (point[k] >= box.high[k] || point[k] < box.low[k]) return 0;
-        const double below = std::nextafter(box.low[k], -std::numeric_limits<double>::infinity());
-        for (const double target : {box.high[k], below}) {
-            const double distance = std::abs(target - point[k]);
-            // The first one is taken whatever its length, which may overflow.
-            if (!std::isfinite(target) || (way.to != point && !(distance < shortest))) continue;
-            shortest = distance;
-            way.to = point;
-            way.to[k] = target;
-        }
+    if (scene.empty()) return 0;
+    // In the infinitesimal step's sense a point on the box's upper side is outside already, since the step goes up; below, it must lie beyond.
+    for (std::size_t k = 0; k < 3; ++k)
+        if (point[k] >= scene.bounds.high[k] || point[k] < scene.bounds.low[k]) return 0;
+    return -crossings_of(scene, way_out(point, scene.bounds), counters);
+}
+
+namespace {
+
+// The ends of query i; false where one is not finite, which counts as invalid.
+template <class Scalar>
+bool read_path(const Ends<Scalar>& ends, std::size_t i, Path& path, std::size_t& invalid) {
+    if (!is_finite(ends, i)) {
+        ++invalid;
+        return false;
     }
-    return -crossings_of(scene, way, counters);
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    for (std::size_t k = 0; k < 3; ++k) {
+        path.from[k] = static_cast<double>(ends.from[at * ends.from_stride + static_cast<std::ptrdiff_t>(k)]);
+        path.to[k] = static_cast<double>(ends.to[at * ends.to_stride + static_cast<std::ptrdiff_t>(k)]);
+    }
+    return true;
+}
+
+}  // namespace
+
+template <class Scalar, class Answer>
+std::size_t first_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last,
+                       std::optional<Answer>* out, const QueryOptions& options, QueryCounters& counters, std::size_t& invalid) {
+    std::size_t hits = 0;
+    Path path;
+    for (std::size_t i = first; i < last; ++i) {
+        out[i].reset();
+        if (!read_path(ends, i, path, invalid)) continue;
+        First<Scalar> collector(scene, path, counters);
+        Shortlist list;
+        traverse<Certified>(scene, path, options, counters, collector, &list);
+        if (!collector.found()) continue;
+        ++hits;
+        Answer& hit = out[i].emplace();
+        answer<Certified, Scalar>(scene, path, collector.best(), none_passed, options, counters, &list, hit);
+        if constexpr (std::is_same_v<Answer, SweepHit<Scalar>>) hit.time_of_impact = hit.fraction;
+    }
+    return hits;
+}
+
+template <class Scalar>
+std::size_t any_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last, std::uint8_t* out,
+                     const QueryOptions& options, QueryCounters& counters, std::size_t& invalid) {
+    std::size_t hits = 0;
+    Path path;
+    for (std::size_t i = first; i < last; ++i) {
+        out[i] = 0;
+        if (!read_path(ends, i, path, invalid)) continue;
+        Any any(none_passed);
+        traverse<Certified>(scene, path, options, counters, any);
+        out[i] = any.found() ? 1 : 0;
+        hits += out[i];
+    }
+    return hits;
 }
 
 template std::optional<Hit<float>> first_hit(const Scene<float>&, const Segment<float>&, const QueryOptions&, QueryCounters&);
@@ -120,5 +190,18 @@ template std::size_t all_hits(const Scene<double>&, const Segment<double>&, std:
                               QueryCounters&);
 template int crossings(const Scene<double>&, const Segment<double>&, QueryCounters&);
 template int winding_number(const Scene<double>&, const Vec3<double>&, QueryCounters&);
+
+template std::size_t first_hits(const Scene<float>&, const Ends<float>&, std::size_t, std::size_t, std::optional<Hit<float>>*,
+                                const QueryOptions&, QueryCounters&, std::size_t&);
+template std::size_t first_hits(const Scene<float>&, const Ends<float>&, std::size_t, std::size_t, std::optional<SweepHit<float>>*,
+                                const QueryOptions&, QueryCounters&, std::size_t&);
+template std::size_t any_hits(const Scene<float>&, const Ends<float>&, std::size_t, std::size_t, std::uint8_t*,
+                              const QueryOptions&, QueryCounters&, std::size_t&);
+template std::size_t first_hits(const Scene<double>&, const Ends<double>&, std::size_t, std::size_t, std::optional<Hit<double>>*,
+                                const QueryOptions&, QueryCounters&, std::size_t&);
+template std::size_t first_hits(const Scene<double>&, const Ends<double>&, std::size_t, std::size_t,
+                                std::optional<SweepHit<double>>*, const QueryOptions&, QueryCounters&, std::size_t&);
+template std::size_t any_hits(const Scene<double>&, const Ends<double>&, std::size_t, std::size_t, std::uint8_t*,
+                              const QueryOptions&, QueryCounters&, std::size_t&);
 
 }  // namespace pierce::detail

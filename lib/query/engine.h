@@ -22,6 +22,15 @@ template <class Scalar>
 [[gnu::noinline]] bool any_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
                                QueryCounters& counters);
 
+/// The ends of many segments: number i is the three scalars at `from + i * from_stride`, and so on.
+template <class Scalar>
+struct Ends {
+    const Scalar* from;
+    const Scalar* to;
+    std::ptrdiff_t from_stride;
+    std::ptrdiff_t to_stride;
+};
+
 /// Whether the ends of query i are numbers.
 template <class Scalar>
 [[nodiscard]] bool is_finite(const Ends<Scalar>& ends, std::size_t i) {

@@ -33,15 +33,13 @@ namespace detail {
 namespace {
 
 // Why a triangle is not hit at all; `later` stands for one that is. The same signs as in decide(), in the same order.
-template <class Scalar>
-FaceVerdict refusal(const Scene<Scalar>& scene, const Path& path, std::uint32_t triangle, const QueryOptions& options) {
-    FaceVerdict verdict{scene.face_of(triangle), scene.triangle_numbers[triangle], Reason::later};
-    const Corners corners = scene.corners(triangle);
+FaceVerdict refusal(const Corners& corners, FaceVerdict verdict, const Path& path, const QueryOptions& options) {
+    const auto masked = [&] { return !options.face_mask.empty() && (verdict.face >= options.face_mask.size() || options.face_mask[verdict.face] == 0); };
     if (has_zero_area(corners)) {
         verdict.reason = Reason::zero_area;
     } else if (!overlap(box_of(path), box_of(corners))) {
         verdict.reason = Reason::apart;
-    } else if (masked(scene, triangle, options)) {
+    } else if (masked()) {
         verdict.reason = Reason::masked;
     } else {
         with_volumes(path, corners, [&](const auto& volumes) {
@@ -74,31 +72,27 @@ template <class Scalar>
 std::vector<FaceVerdict> explain(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
                                  QueryCounters& counters) {
     const Path path = to_path(segment);
-    Search<Scalar> search(scene, path, options.sides);
     First<Scalar> first(scene, path, counters);
-    traverse<Certified>(search, options, counters, first);
+    traverse<Certified>(scene, path, options, counters, first);
 
-    std::vector<std::uint32_t> near;
-    visit_all_near(search, counters, [&](const std::uint32_t* ids, unsigned count) { near.insert(near.end(), ids, ids + count); });
-    // The grid does not list triangles without area.
-    for (auto i = static_cast<std::uint32_t>(scene.triangles.size() - scene.degenerate); i < scene.triangles.size(); ++i)
-        if (overlap(box_of(path), box_of(scene.corners(i)))) near.push_back(i);
-    std::sort(near.begin(), near.end(),
-              [&](std::uint32_t x, std::uint32_t y) { return scene.triangle_numbers[x] < scene.triangle_numbers[y]; });
-
+    // All triangles are looked at: the broadphase does not tell what it left out.
     std::vector<FaceVerdict> verdicts;
-    verdicts.reserve(near.size());
-    for (const std::uint32_t triangle : near) {
-        FaceVerdict verdict = refusal(scene, path, triangle, options);
+    const auto named = [&](std::uint32_t number) { return FaceVerdict{scene.face_of_number(number), number, Reason::later}; };
+    scene.each_triangle([&](TriangleRef triangle) {
+        const Corners corners = scene.corners(triangle);
+        if (!overlap(box_of(path), box_of(corners))) return;
+        FaceVerdict verdict = refusal(corners, named(scene.number_of(triangle)), path, options);
         if (verdict.reason == Reason::later) {
-            const Corners corners = scene.corners(triangle);
             const Candidate candidate{triangle, decide(path, corners, options.sides)};
             if (!fraction_at_most(path, corners, options.max_fraction)) verdict.reason = Reason::too_far;
             else if (options.accept && !accepted(scene, path, candidate, options, counters)) verdict.reason = Reason::not_accepted;
-            else if (triangle == first.best().triangle) verdict.reason = Reason::first_hit;
+            else if (first.found() && triangle == first.best().triangle) verdict.reason = Reason::first_hit;
         }
         verdicts.push_back(verdict);
-    }
+    });
+    for (const auto& [number, corners] : scene.degenerate)
+        if (overlap(box_of(path), box_of(corners))) verdicts.push_back(refusal(corners, named(number), path, options));
+    std::sort(verdicts.begin(), verdicts.end(), [](const FaceVerdict& x, const FaceVerdict& y) { return x.triangle < y.triangle; });
     return verdicts;
 }
 

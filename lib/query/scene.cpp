@@ -1,17 +1,19 @@
-// A mesh made ready: the build, from positions and indices to the grid.
+// A mesh made ready: the build, from positions and indices to the broadphase.
 #include <query/scene.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <unordered_set>
 
 #include <chunks.h>
+#include <cluster/make_clusters.h>
 #include <environment.h>
 #include <exact/decide.h>
-#include <kernel/plane.h>
 #include <mesh/check_mesh.h>
+#include <tree/make_tree.h>
 
 namespace pierce::detail {
 
@@ -25,65 +27,34 @@ std::size_t count_faces(const Scene<Scalar>& scene) {
 }
 
 template <class Scalar>
-RawArray<PlainBox<Scalar>> make_boxes(const MeshView<Scalar>& mesh, const Executor& executor) {
-    RawArray<PlainBox<Scalar>> boxes(mesh.triangles.size());
-    each_chunk(executor, boxes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const IndexTriple& t = mesh.triangles[i];
-            const Scalar* a = mesh.positions[t[0]].data();
-            const Scalar* b = mesh.positions[t[1]].data();
-            const Scalar* c = mesh.positions[t[2]].data();
-            PlainBox<Scalar>& box = boxes[i];
-            for (std::size_t k = 0; k < 3; ++k) {
-                box.low[k] = std::min(std::min(a[k], b[k]), c[k]);
-                box.high[k] = std::max(std::max(a[k], b[k]), c[k]);
-            }
-            const Corners corners = {to_point(mesh.positions[t[0]]), to_point(mesh.positions[t[1]]), to_point(mesh.positions[t[2]])};
-            if (!Plane<double>(corners).has_area() && has_zero_area(corners)) box = {{1, 1, 1}, {0, 0, 0}};
-        }
+void copy_triangles(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const Executor& executor) {
+    scene.triangles = RawArray<IndexTriple>(mesh.triangles.size());
+    each_chunk(executor, mesh.triangles.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+        std::copy(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(begin), mesh.triangles.begin() + static_cast<std::ptrdiff_t>(end),
+                  scene.triangles.begin() + begin);
     });
-    return boxes;
 }
 
-// Copies the mesh in the order of the grid, which is not its own: what comes next is asked of memory before.
+// Those that are in no cluster.
 template <class Scalar>
-void copy_in_order(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const Executor& executor) {
-    const std::size_t count = mesh.triangles.size();
-    scene.triangles = RawArray<IndexTriple>(count);
-    scene.coordinates = RawArray<Scalar>(9 * count + 1);
-    scene.coordinates[9 * count] = 0;
-    each_chunk(executor, count, [&](std::size_t, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto triangle = [&](std::size_t at) -> const IndexTriple& { return mesh.triangles[scene.triangle_numbers[std::min(at, end - 1)]]; };
-            __builtin_prefetch(&triangle(i + 2 * k_ahead));
-            for (const std::uint32_t vertex : triangle(i + k_ahead)) __builtin_prefetch(&mesh.positions[vertex]);
-            const IndexTriple& t = triangle(i);
-            scene.triangles[i] = t;
-            Scalar* to = &scene.coordinates[9 * i];
-            for (const std::uint32_t vertex : t) {
-                const Scalar* from = mesh.positions[vertex].data();
-                for (std::size_t k = 0; k < 3; ++k) *to++ = from[k];
-            }
-        }
-    });
-    scene.vertex_count = mesh.positions.size();
-}
-
-// Exact whatever the numbers: the exponent of the cell, taken from the bits.
-float scale_for(const Grid& grid) {
-    if (grid.empty()) return 1;
-    const Raster& raster = grid.levels().front().raster();
-    const double cell = std::max({raster.size(0), raster.size(1), raster.size(2)});
-    const int power = std::isfinite(cell) ? std::clamp(-std::ilogb(cell), -100, 100) : -100;
-    return static_cast<float>(std::ldexp(1.0, power));
+void keep_degenerate(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, std::size_t count) {
+    if (count == 0) return;
+    std::vector<bool> listed(mesh.triangles.size());
+    scene.each_triangle([&](TriangleRef triangle) { listed[scene.number_of(triangle)] = true; });
+    scene.degenerate.reserve(count);
+    for (std::uint32_t i = 0; i < listed.size(); ++i) {
+        if (listed[i]) continue;
+        const IndexTriple& t = mesh.triangles[i];
+        scene.degenerate.push_back({i, {to_point(mesh.positions[t[0]]), to_point(mesh.positions[t[1]]), to_point(mesh.positions[t[2]])}});
+    }
 }
 
 }  // namespace
 
 template <class Scalar>
 std::size_t Scene<Scalar>::bytes() const {
-    return sizeof(*this) + coordinates.bytes() + triangles.bytes() +
-           (triangle_numbers.capacity() + faces.capacity()) * sizeof(std::uint32_t) + grid.bytes();
+    return sizeof(*this) + clusters.records.bytes() + cluster_refs.bytes() + triangles.bytes() + faces.capacity() * sizeof(std::uint32_t) +
+           degenerate.capacity() * sizeof(Degenerate) + tree.bytes();
 }
 
 template <class Scalar>
@@ -108,19 +79,24 @@ Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& optio
     Scene<Scalar> scene;
     scene.backend = &choose_backend(options.backend);
     scene.faces.assign(mesh.faces.begin(), mesh.faces.end());
+    scene.vertex_count = mesh.positions.size();
 
-    const RawArray<PlainBox<Scalar>> boxes = make_boxes(mesh, executor);
-    const std::size_t most = options.max_grid_bytes != 0 ? options.max_grid_bytes
-                                                         : std::max<std::size_t>(96 * boxes.size(), std::size_t{1} << 16);
-    scene.grid = Grid(std::span(boxes.data(), boxes.size()), {options.cell_size, most}, executor);
-    scene.triangle_numbers = scene.grid.take_order();
-    const std::size_t listed = scene.triangle_numbers.size();
-    scene.triangle_numbers.reserve(boxes.size());
-    for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        if (!boxes[i].listed()) scene.triangle_numbers.push_back(i);
-    scene.degenerate = scene.triangle_numbers.size() - listed;
-    copy_in_order(mesh, scene, executor);
-    scene.scale = scale_for(scene.grid);
+    ClusterBuild<Scalar> built = make_clusters(mesh, has_zero_area, executor);
+    scene.clusters = std::move(built.clusters);
+    scene.cluster_refs = RawArray<ClusterRef>(built.boxes.size());
+    for (std::size_t i = 0; i < built.boxes.size(); ++i) scene.cluster_refs[i] = built.boxes[i].ref;
+    if (!scene.empty()) {
+        for (std::size_t k = 0; k < 3; ++k) scene.bounds.low[k] = built.low[k], scene.bounds.high[k] = built.high[k];
+        constexpr auto epsilon = static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+        constexpr auto least = static_cast<double>(std::numeric_limits<Scalar>::denorm_min());
+        // Twelve units in the last place of the largest coordinate: an epsilon of it is one unit or two.
+        scene.near_bound = 12 * std::max(built.largest * epsilon, least);
+        scene.frame.unit = built.unit;
+        scene.frame.noise = std::max(scene.near_bound * built.unit, std::numeric_limits<double>::min());
+        scene.tree = make_tree(std::span(built.boxes.data(), built.boxes.size()), scene.clusters.empty, scene.frame, executor);
+    }
+    copy_triangles(mesh, scene, executor);
+    keep_degenerate(mesh, scene, built.degenerate);
     scene.face_count = count_faces(scene);
     return scene;
 }

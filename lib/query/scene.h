@@ -4,41 +4,68 @@
 #include <algorithm>
 #include <vector>
 
-#include <grid/grid.h>
+#include <cluster/clusters.h>
 #include <kernel/backends.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
-#include <raw_array.h>
+#include <tree/tree.h>
 
 namespace pierce::detail {
 
+/// A triangle where it lies in the records.
+struct TriangleRef {
+    ClusterRef cluster = 0;
+    std::uint32_t lane = 0;
+
+    friend bool operator==(const TriangleRef&, const TriangleRef&) = default;
+};
+
+struct Box {
+    Point low;
+    Point high;
+};
+
+[[nodiscard]] inline bool overlap(const Box& x, const Box& y) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (x.high[k] < y.low[k] || y.high[k] < x.low[k]) return false;
+    return true;
+}
+
 template <class Scalar>
 struct Scene {
-    // Triangles in an order of the library's own, in which what is near in space is near in memory, those of area zero last. `triangle`
-    // means a place in it.
-    RawArray<Scalar> coordinates;         ///< of the corners: nine a triangle, and one more that kernels may read
-    RawArray<IndexTriple> triangles;      ///< the caller's vertices
-    std::vector<std::uint32_t> triangle_numbers;  ///< the caller's, by triangle
-    std::vector<std::uint32_t> faces;        ///< as in MeshView, by the caller's number; empty when that is the face as well
-    std::size_t degenerate = 0;              ///< triangles of area zero
-    Grid grid;                               ///< lists all the others
+    Clusters<Scalar> clusters;
+    RawArray<ClusterRef> cluster_refs;        ///< all of them
+    Tree tree;
+    Frame frame;
+    Box bounds;                               ///< of all triangles but those of area zero
+    RawArray<IndexTriple> triangles;          ///< the caller's
+    std::vector<std::uint32_t> faces;         ///< as in MeshView; empty when a triangle's number is the face as well
+    /// Triangles of area zero are in no cluster.
+    struct Degenerate {
+        std::uint32_t number;
+        Corners corners;
+    };
+    std::vector<Degenerate> degenerate;
     const Backend* backend = nullptr;
-    float scale = 1;                         ///< the power of two that makes a cell of the finest level about 1 wide
+    /// How far from the segment, in each coordinate, a hit's point may be looked for. Frame::noise is the same in scene units.
+    double near_bound = 0;
     std::size_t face_count = 0;
     std::size_t vertex_count = 0;
 
-    [[nodiscard]] Corners corners(std::uint32_t triangle) const {
-        const Scalar* x = &coordinates[9 * std::size_t{triangle}];
-        const auto corner = [&](std::size_t k) {
-            return Point{static_cast<double>(x[3 * k]), static_cast<double>(x[3 * k + 1]), static_cast<double>(x[3 * k + 2])};
-        };
-        return {corner(0), corner(1), corner(2)};
-    }
-    [[nodiscard]] std::uint32_t face_of(std::uint32_t triangle) const {
-        const std::uint32_t number = triangle_numbers[triangle];
-        return faces.empty() ? number : faces[number];
-    }
+    [[nodiscard]] bool empty() const { return cluster_refs.empty(); }
+    [[nodiscard]] Corners corners(TriangleRef triangle) const { return clusters.corners(triangle.cluster, triangle.lane); }
+    /// The caller's number.
+    [[nodiscard]] std::uint32_t number_of(TriangleRef triangle) const { return clusters.triangle(triangle.cluster, triangle.lane); }
+    [[nodiscard]] std::uint32_t face_of_number(std::uint32_t number) const { return faces.empty() ? number : faces[number]; }
+    [[nodiscard]] std::uint32_t face_of(TriangleRef triangle) const { return face_of_number(number_of(triangle)); }
     [[nodiscard]] std::size_t bytes() const;
+
+    /// Calls `visit(triangle)` for all triangles but those of area zero.
+    template <class Visit>
+    void each_triangle(Visit&& visit) const {
+        for (const ClusterRef cluster : cluster_refs)
+            for (std::uint32_t lane = 0; lane < count_of(cluster); ++lane) visit(TriangleRef{cluster, lane});
+    }
 };
 
 [[nodiscard]] inline Box box_of(const Corners& corners) {
@@ -59,7 +86,7 @@ struct Scene {
     return box;
 }
 
-/// Checks the mesh (throws `MeshError`), copies it, and makes the grid. Not inlined: see engine.h.
+/// Checks the mesh (throws `MeshError`), copies it, and builds the broadphase. Not inlined: see engine.h.
 template <class Scalar>
 [[nodiscard]] [[gnu::noinline]] Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options);
 

@@ -1,15 +1,28 @@
-// The one way through the rooms: grid, kernels, exact arithmetic where they are in doubt, collector.
+// The one way through the rooms: broadphase, wide kernels, filter, exact arithmetic where that is in doubt, collector.
 #pragma once
 
 #include <kernel/filter.h>
+#include <query/broadphase.h>
 #include <query/candidate.h>
-#include <query/cells.h>
 #include <query/values.h>
 
 namespace pierce::detail {
 
+/// The triangles that the wide kernels left; if `complete`, all that could stop a point on a way within `Scene::near_bound` of the path, so that
+/// the verified point needs no second traversal.
+struct Shortlist {
+    void add(TriangleRef triangle) {
+        if (count == triangles.size()) complete = false;
+        else triangles[count++] = triangle;
+    }
+
+    std::array<TriangleRef, 64> triangles;
+    unsigned count = 0;
+    bool complete = true;
+};
+
 template <class Scalar>
-[[nodiscard]] bool masked(const Scene<Scalar>& scene, std::uint32_t triangle, const QueryOptions& options) {
+[[nodiscard]] bool masked(const Scene<Scalar>& scene, TriangleRef triangle, const QueryOptions& options) {
     if (options.face_mask.empty()) return false;
     const std::uint32_t face = scene.face_of(triangle);
     return face >= options.face_mask.size() || options.face_mask[face] == 0;
@@ -21,7 +34,7 @@ template <class Scalar>
                             const QueryOptions& options, QueryCounters& counters) {
     const Measures measures = CertifiedFace<double>(scene.corners(candidate.triangle), counters).measures(path, candidate.decision);
     const Point& w = measures.barycentric;
-    return options.accept({scene.face_of(candidate.triangle), scene.triangle_numbers[candidate.triangle], candidate.decision.side,
+    return options.accept({scene.face_of(candidate.triangle), scene.number_of(candidate.triangle), candidate.decision.side,
                            candidate.decision.feature, candidate.decision.feature_index, candidate.decision.at_start,
                            measures.fraction, {w[0], w[1], w[2]}});
 }
@@ -29,10 +42,8 @@ template <class Scalar>
 /// All that is certified about a triangle that the wide kernels leave: whether it is hit, sides of its plane, values. (A policy, so that
 /// the benchmark can put another in its place and measure what certainty costs.)
 struct Certified {
-    static constexpr float unit = 0x1p-24F;  ///< of the wide kernels' bounds
-
     /// Whether the path hits, unless the hit lies beyond `limit`.
-    static bool test(const Corners& corners, std::uint32_t triangle, const Path& path, Sides sides, double limit,
+    static bool test(const Corners& corners, TriangleRef triangle, const Path& path, Sides sides, double limit,
                      QueryCounters& counters, Candidate& candidate) {
         const Filtered filtered = filter(corners, path, sides);
         if (filtered.verdict == Verdict::miss || filtered.earliest > limit) return false;
@@ -58,7 +69,7 @@ struct Certified {
 
 /// Gives the collector a triangle that the wide kernels leave, if the path hits it under `options`.
 template <class Kernel, class Scalar, class Collector>
-void test_triangle(const Scene<Scalar>& scene, const Path& path, std::uint32_t triangle, const QueryOptions& options,
+void test_triangle(const Scene<Scalar>& scene, const Path& path, TriangleRef triangle, const QueryOptions& options,
                    QueryCounters& counters, Collector& collector) {
     if (!collector.wants(triangle) || masked(scene, triangle, options)) return;
     Candidate& candidate = collector.room();
@@ -73,51 +84,25 @@ void test_triangle(const Scene<Scalar>& scene, const Path& path, std::uint32_t t
     collector.add();
 }
 
-/// Asks the kernels about a list of triangles and gives the collector those that the path hits under `options`.
-/// (Not inlined: most short segments come near no triangle.)
-template <class Kernel, class Scalar, class Collector>
-[[gnu::noinline]] void test_triangles(Search<Scalar>& search, std::uint32_t* ids, unsigned count, const QueryOptions& options,
-                                       QueryCounters& counters, Collector& collector, Shortlist& list) {
-    const Scene<Scalar>& scene = search.scene;
-    const Probe<Scalar>& probe = search.probe(Kernel::unit);
-    std::array<std::uint32_t, 64> left;
-    for (; count > 0;) {
-        const unsigned some = std::min<unsigned>(count, left.size());
-        const unsigned found = scene.backend->refine(probe, scene.coordinates.data(), ids, some, left.data());
-        counters.triangles += some;
-        ids += some;
-        count -= some;
-        for (unsigned i = 0; i < found; ++i) __builtin_prefetch(&scene.triangle_numbers[left[i]]);  // for the answer
-        list.add(left.data(), found);
-        for (unsigned i = 0; i < found; ++i) test_triangle<Kernel>(scene, search.path, left[i], options, counters, collector);
-    }
-}
-
 /// Gives the collector of a query each triangle that the path hits under `options`. A collector has
-///   bool once                     whether a hit must not come twice
 ///   double limit()                hits beyond this fraction are of no use; negative: none is any more
 ///   bool wants(triangle)          whether to look at it at all
 ///   Candidate& room()             where the next hit is to be written (a copy of what was just written would wait for memory)
 ///   void add()                    the hit that was written there counts
 /// `options.max_fraction` must not be NaN.
 template <class Kernel, class Scalar, class Collector>
-void traverse(Search<Scalar>& search, Near near, Ids& ids, const QueryOptions& options, QueryCounters& counters, Collector& collector,
-              Shortlist& list) {
+void traverse(const Scene<Scalar>& scene, const Path& path, const QueryOptions& options, QueryCounters& counters, Collector& collector,
+              Shortlist* list = nullptr) {
     const auto limit = [&] { return std::min(collector.limit(), options.max_fraction); };
-    visit_near(search, near, Collector::once, ids, list.complete, limit, counters, [&](std::uint32_t* some, unsigned count) {
-        test_triangles<Kernel>(search, some, count, options, counters, collector, list);
+    each_candidate(scene, path, options.sides, limit(), counters, [&](ClusterRef cluster, unsigned lanes) {
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const TriangleRef triangle{cluster, static_cast<std::uint32_t>(std::countr_zero(lanes))};
+            if (cluster == scene.clusters.empty) break;
+            if (list != nullptr) list->add(triangle);
+            test_triangle<Kernel>(scene, path, triangle, options, counters, collector);
+        }
+        return limit();
     });
-}
-template <class Kernel, class Scalar, class Collector>
-void traverse(Search<Scalar>& search, const QueryOptions& options, QueryCounters& counters, Collector& collector, Shortlist& list) {
-    Ids ids;
-    const Near near = look_near(search.scene, search.path, 0, ids, counters);
-    traverse<Kernel>(search, near, ids, options, counters, collector, list);
-}
-template <class Kernel, class Scalar, class Collector>
-void traverse(Search<Scalar>& search, const QueryOptions& options, QueryCounters& counters, Collector& collector) {
-    Shortlist unused;
-    traverse<Kernel>(search, options, counters, collector, unused);
 }
 
 }  // namespace pierce::detail

@@ -1,0 +1,49 @@
+// What the rest of query/ knows of a broadphase: it gives the triangles that a segment may hit, roughly nearest first.
+#pragma once
+
+#include <bit>
+#include <limits>
+
+#include <query/scene.h>
+
+namespace pierce::detail {
+
+/// A fraction of the segment as the parameter of a probe, rounded up; negative where nothing of the probe comes before it. The last terms are for
+/// the roundings here, and of `begin` where the probe was clipped (set_probe.h: within 2^-52).
+template <class Scalar>
+[[nodiscard]] inline float parameter(const Probe<Scalar>& probe, double fraction) {
+    if (!(fraction >= 0)) return -1;
+    if (probe.length == 1) return static_cast<float>(std::min(fraction, 1.0)) * (1 + 0x1p-22F) + std::numeric_limits<float>::min();
+    const double left = fraction - probe.begin + 0x1p-50;
+    if (left < 0) return -1;
+    return static_cast<float>(std::min(left / probe.length, 1.0)) * (1 + 0x1p-22F) + std::numeric_limits<float>::min();
+}
+
+/// Calls `use(cluster, lanes)` for each cluster of which the wide kernels can't refuse all triangles: bits in `lanes` say which are left.
+/// No triangle comes twice. `use` returns the fraction from which on hits are of no use; negative: none is any more. Nothing is left out that the
+/// segment hits, or that a way within `Scene::near_bound` of it hits, up to that fraction.
+template <class Scalar, class Use>
+void each_candidate(const Scene<Scalar>& scene, const Path& path, Sides sides, double limit, QueryCounters& counters, Use&& use) {
+    if (scene.empty()) return;
+    const ScalarKernels<Scalar>& kernels = scene.backend->template of<Scalar>();
+    Probe<Scalar> probe;
+    if (!kernels.set_probe(scene.frame, path.from.data(), path.to.data(), sides == Sides::front, sides == Sides::back, probe)) return;
+    const float first_limit = parameter(probe, limit);
+    if (first_limit < 0) return;
+    struct Context {
+        const Probe<Scalar>& probe;
+        QueryCounters& counters;
+        Use& use;
+    };
+    Context context{probe, counters, use};
+    const Visit visit = [](void* self, std::uint32_t cluster, unsigned lanes) {
+        const auto& [asked, counts, call] = *static_cast<Context*>(self);
+        counts.triangles += static_cast<unsigned>(std::popcount(lanes));
+        return parameter(asked, call(cluster, lanes));
+    };
+    kernels.traverse(scene.tree.view(), scene.clusters.records.data(), probe, first_limit, visit, &context);
+    counters.nodes += probe.nodes;
+    counters.clusters += probe.clusters;
+}
+
+}  // namespace pierce::detail
