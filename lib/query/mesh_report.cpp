@@ -1,4 +1,4 @@
-// What is odd about a mesh: its edges sorted, its fans joined, its border vertices looked up in a grid of border edges.
+// What is odd about a mesh: its edges sorted, its fans joined, its border vertices looked up along each border edge.
 #include <query/mesh_report.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include <exact/decide.h>
-#include <grid/grid.h>
+#include <query/point_tree.h>
 
 namespace pierce {
 
@@ -193,35 +193,18 @@ class Reporter {
     }
 
     void look_at_borders() {
-        std::vector<PlainBox<double>> boxes;
         std::vector<std::uint32_t> vertices;
-        for (const MeshReport::Edge& edge : border_) {
-            vertices.insert(vertices.end(), edge.begin(), edge.end());
-            const double slack = 2 * rounding(edge);
-            PlainBox<double> box{};
-            constexpr double k_most = std::numeric_limits<double>::max();
-            for (std::size_t k = 0; k < 3; ++k) {
-                box.low[k] = std::min(positions_[edge[0]][k], positions_[edge[1]][k]);
-                box.high[k] = std::max(positions_[edge[0]][k], positions_[edge[1]][k]);
-                box.low[k] = std::max(box.low[k] - slack, -k_most);
-                box.high[k] = std::min(box.high[k] + slack, k_most);
-            }
-            boxes.push_back(box);
-        }
+        for (const MeshReport::Edge& edge : border_) vertices.insert(vertices.end(), edge.begin(), edge.end());
         std::sort(vertices.begin(), vertices.end());
         vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        Grid grid(std::span<const PlainBox<double>>(boxes), {0, 256 * boxes.size() + 4096}, {});
-        const std::vector<std::uint32_t> order = grid.take_order();
-        for (const std::uint32_t v : vertices) {
-            bool found = false;
-            for (const Level& level : grid.levels()) {
-                const Steps at = level.raster().steps(positions_[v], positions_[v]);
-                if (level.raster().outside(at)) continue;
-                const Range range = level.range(level.raster().cell_of(at.low));
-                for (std::uint32_t i = range.begin; i < range.end && !found; ++i) found = lies_on(v, border_[order[*level.ids(i)]]);
-            }
-            if (found) note(report_.t_junctions, report_.t_junction_list, v);
-        }
+        const PointTree tree(positions_, vertices);
+        std::vector<std::uint8_t> found(positions_.size(), 0);
+        for (const MeshReport::Edge& edge : border_)
+            tree.visit_near(positions_[edge[0]], positions_[edge[1]], 4 * rounding(edge), [&](std::uint32_t v) {
+                if (found[v] == 0 && lies_on(v, edge)) found[v] = 1;
+            });
+        for (const std::uint32_t v : vertices)
+            if (found[v] != 0) note(report_.t_junctions, report_.t_junction_list, v);
     }
 
     std::span<const Point> positions_;

@@ -1,4 +1,4 @@
-// What the exact room costs: its integers against floating-point expansions, on coordinates of several kinds, in one run.
+// What the exact room costs: its integers and its accumulator against floating-point expansions, on coordinates of several kinds, in one run.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -29,14 +29,25 @@ double time_of(std::size_t count, Work&& work) {
     return passes[4];
 }
 
+enum class Exponents { alike, spread, one_subnormal, all };
+
 template <class Scalar>
-void measure_all(const char* what, double offset, bool wide) {
+void measure_all(const char* what, double offset, Exponents exponents) {
     Random random(1);
     std::vector<Pair> pairs;
     for (int i = 0; i < 4096; ++i) {
         Pair pair = make_pair_of<Scalar>(static_cast<Family>(i % 3), 1, offset, random);
-        if (wide)  // exponents far apart: more limbs
-            for (double& x : pair.corners[0]) x *= std::exp(random.between(-60, 0));
+        auto& [path, corners] = pair;
+        if (exponents == Exponents::spread)  // more limbs
+            for (double& x : corners[0]) x *= std::exp(random.between(-60, 0));
+        if (exponents == Exponents::one_subnormal) {  // a particle at rest on a floor at 0
+            for (detail::Point& corner : corners) corner[2] = 0;
+            path.from[2] = 5e-324;
+            path.to[2] = -0.01;
+        }
+        if (exponents == Exponents::all)
+            for (detail::Point* p : {&path.from, &path.to, &corners[0], &corners[1], &corners[2]})
+                for (double& x : *p) x *= std::exp2(random.between(-1070, 1000));
         pairs.push_back(pair);
     }
     const std::size_t n = pairs.size();
@@ -57,10 +68,12 @@ void measure_all(const char* what, double offset, bool wide) {
 }  // namespace pierce::test
 
 int main() {
-    std::puts("ns a call: side of a point by expansions and by integers; a whole decision; order of two hits; values; planes");
-    pierce::test::measure_all<float>("float", 0, false);
-    pierce::test::measure_all<float>("float_far", 1e3, false);
-    pierce::test::measure_all<double>("double", 0, false);
-    pierce::test::measure_all<double>("double_far", 1e6, false);
-    pierce::test::measure_all<double>("double_wide", 0, true);
+    std::puts("ns a call: side of a point by expansions and by the exact room; a whole decision; order of two hits; values; planes");
+    pierce::test::measure_all<float>("float", 0, pierce::test::Exponents::alike);
+    pierce::test::measure_all<float>("float_far", 1e3, pierce::test::Exponents::alike);
+    pierce::test::measure_all<double>("double", 0, pierce::test::Exponents::alike);
+    pierce::test::measure_all<double>("double_far", 1e6, pierce::test::Exponents::alike);
+    pierce::test::measure_all<double>("double_wide", 0, pierce::test::Exponents::spread);
+    pierce::test::measure_all<double>("double_one_subnormal", 0, pierce::test::Exponents::one_subnormal);
+    pierce::test::measure_all<double>("double_all", 0, pierce::test::Exponents::all);
 }
