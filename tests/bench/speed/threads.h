@@ -1,4 +1,4 @@
-// Threads for pierce: an executor with a given number of them, and builds with it. Not oneTBB's: Embree limits those for the whole process.
+// Threads for pierce: an executor with a given number of them. Not oneTBB's: Embree limits those for the whole process.
 #pragma once
 
 #include <atomic>
@@ -73,10 +73,5 @@ class Threads {
     std::unique_ptr<Work> work_;
     std::vector<std::jthread> others_;
 };
-
-template <class Scalar>
-CollisionMesh<Scalar> build(const MeshView<Scalar>& mesh, const Threads& threads) {
-    return CollisionMesh<Scalar>(mesh, {.executor = Executor(threads)});
-}
 
 }  // namespace pierce::bench
