@@ -61,8 +61,8 @@ bool Agreement::report() const {
            "fraction by more "
            "than 0.001; hits that either sees within 0.001 of an end are set aside, as rules and rounding decide there "
            "(at an end). CGAL "
-           "differs: of the triangles that the segment meets, whether any has its ends on different sides, where on the "
-           "plane counts as in front, which is pierce's rule.\n\n";
+           "differs: of the triangles that the segment meets, whether any has its ends on different sides, where "
+           "on the plane counts as in front, which is pierce's rule.\n\n";
     table.print(std::cout);
     std::cout << "Embree differs in " << embree.part << " of " << embree.whole
               << " answers; tolerated: 1 of 1000. CGAL differs in " << cgal.part << " of " << cgal.whole

@@ -10,22 +10,25 @@
 namespace pierce::bench {
 namespace {
 
-/// As long as it lives, malloc returns nothing to the system, large blocks included: the next build finds its pages there.
+/// Large blocks come from the system and go back to it: glibc's values for a new program, which it would otherwise adapt.
+void use_fresh_memory() {
+    constexpr int k_large = 128 * 1024;
+    mallopt(M_MMAP_MAX, 65536);
+    mallopt(M_MMAP_THRESHOLD, k_large);
+    mallopt(M_TRIM_THRESHOLD, k_large);
+    malloc_trim(0);
+}
+
+/// As long as it lives, malloc returns nothing to the system, large blocks included: the next build finds its pages.
 class KeptMemory {
   public:
-    KeptMemory() { set(0, -1); }
-    ~KeptMemory() {
-        set(65536, 128 * 1024);  // as glibc has them, so that queries find what they find in any program
-        malloc_trim(0);
+    KeptMemory() {
+        mallopt(M_MMAP_MAX, 0);
+        mallopt(M_TRIM_THRESHOLD, -1);
     }
+    ~KeptMemory() { use_fresh_memory(); }
     KeptMemory(const KeptMemory&) = delete;
     KeptMemory& operator=(const KeptMemory&) = delete;
-
-  private:
-    static void set(int mapped_blocks, int trim_threshold) {
-        mallopt(M_MMAP_MAX, mapped_blocks);
-        mallopt(M_TRIM_THRESHOLD, trim_threshold);
-    }
 };
 
 struct Milliseconds {
@@ -96,6 +99,7 @@ void measure_builds(const std::string& mesh, const MeshView<float>& view, int re
         results.add(mesh, set, column, ms);
     };
     Builder builder(view);
+    use_fresh_memory();
     for (int r = 0; r < repetitions; ++r) {
         add(set_name::build_fresh, column::pierce, builder.ours({}).process);
         std::optional<EmbreeScene> low;

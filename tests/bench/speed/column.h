@@ -64,16 +64,16 @@ inline constexpr std::string_view cgal_first = "CGAL first";
 inline constexpr std::string_view k_columns_text =
     R"(Both sides of a face count in every column but that of the fronts.
 
-- **pierce**: `first_hit` in float; any: `any_hit`; batch: `first_hits` and `any_hits`, one thread; fronts: `Sides::front`;
-  grid: the uniform grid as the broadphase; double: the same floats as doubles.
-- **Embree**: `rtcIntersect1` from 0 to 1 along `to - from`, high quality, not robust, incoherent, one thread, denormals flushed
-  as its manual advises. any: `rtcOccluded1`; 1M: `rtcIntersect1M` for 256 rays at a time; robust: high quality and
-  `RTC_SCENE_FLAG_ROBUST`; low: low quality.
+- **pierce**: `first_hit` in float; any: `any_hit`; batch: `first_hits` and `any_hits`, one thread; fronts:
+  `Sides::front`; grid: the uniform grid as the broadphase; double: the same floats as doubles.
+- **Embree**: `rtcIntersect1` from 0 to 1 along `to - from`, high quality, not robust, incoherent, one thread, denormals
+  flushed as its manual advises. any: `rtcOccluded1`; 1M: `rtcIntersect1M` for 256 rays at a time; robust: high quality
+  and `RTC_SCENE_FLAG_ROBUST`; low: low quality.
 - **Bullet**: `performRaycast` of a `btBvhTriangleMeshShape` with a `btTriangleRaycastCallback`.
-- **CGAL**: `AABB_tree`, exact predicates and inexact constructions, in double; any: `do_intersect`; first: the nearest of
-  `all_intersections`, as it has no first hit of a segment.
+- **CGAL**: `AABB_tree`, exact predicates and inexact constructions, in double; any: `do_intersect`; first: the nearest
+  of `all_intersections`, as it has no first hit of a segment.
 
-Segments are in each library's own form before time is taken: peers are charged for nothing but the call and reading its result.
+Segments are in each library's own form before time is taken: peers are charged for the call and reading its result.
 )";
 
 template <class Scalar>

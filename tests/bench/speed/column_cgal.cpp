@@ -33,8 +33,8 @@ class Any : public CgalColumn {
         for (std::size_t i = begin; i < end; ++i) hits += tree().get().do_intersect(segment(i)) ? 1U : 0U;
         return hits;
     }
-    /// By pierce's rule for both sides, so that both must say the same: the ends are on different sides of a triangle that the
-    /// segment meets, where on its plane counts as in front.
+    /// By pierce's rule for both sides, so that both must say the same: the ends are on different sides of a triangle
+    /// that the segment meets, where on its plane counts as in front.
     Answer answer(std::size_t i) override {
         std::vector<CgalTree::Triangles::const_iterator> met;
         tree().get().all_intersected_primitives(segment(i), std::back_inserter(met));

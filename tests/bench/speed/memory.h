@@ -12,7 +12,7 @@ inline constexpr std::string_view memory = "memory";  ///< bytes a face
 
 void measure_memory(const std::string& mesh, const MeshView<float>& view, Results& results);
 
-/// Builds the mesh in a process of its own, asks about segments and prints the most memory that it held, the mesh included.
+/// Builds the mesh in a process of its own, asks about segments and prints the most memory that it held, with the mesh.
 void measure_peak(const BenchMesh& mesh);
 
 }  // namespace pierce::bench

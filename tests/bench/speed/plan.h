@@ -26,8 +26,8 @@ struct Plan {
     [[nodiscard]] bool wanted(SegmentSet set, std::string_view name) const {
         const bool is_short = set == SegmentSet::short_02 || set == SegmentSet::short_1;
         const bool is_long = set == SegmentSet::aimed || set == SegmentSet::random;
-        constexpr std::array everywhere = {column::pierce,       column::pierce_batch, column::embree,    column::fronts,
-                                           column::fronts_batch, column::grid,         column::grid_batch};
+        constexpr std::array everywhere = {column::pierce, column::pierce_batch, column::fronts, column::fronts_batch,
+                                           column::grid,   column::grid_batch,   column::embree};
         constexpr std::array any = {column::pierce_any, column::pierce_any_batch, column::embree_any};
         constexpr std::array slow = {column::bullet, column::cgal_any, column::cgal_first};
         const auto among = [&](const auto& names) {

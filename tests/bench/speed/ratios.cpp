@@ -41,7 +41,8 @@ std::vector<RatioLine> ratio_lines() {
         lines.push_back({name + ".single", sets, peer, single, alone});
         lines.push_back({name + ".batch", sets, peer, batch, alone});
     };
-    const auto add_lengths = [&](const std::string& prefix, std::string_view single, std::string_view batch, bool alone) {
+    const auto add_lengths = [&](const std::string& prefix, std::string_view single, std::string_view batch,
+                                 bool alone) {
         add(prefix + "short", shorts, embree, single, batch, alone);
         add(prefix + "cloud", of(SegmentSet::cloud), embree, single, batch, alone);
         add(prefix + "medium", of(SegmentSet::medium), embree, single, batch, alone);
@@ -108,7 +109,8 @@ void print_ratios(const Results& results, const std::vector<Measured>& meshes) {
             table.add(row);
     }
     std::cout << "### Ratios\n\nThe peer's time (or bytes) over ours, the median of the repetitions' ratios: more is "
-                 "better. Sets that are taken together count by their time. What is timed, and how: tests/bench/README.md.\n\n";
+                 "better. Sets that are taken together count by their time. What is timed, and how: "
+                 "tests/bench/README.md.\n\n";
     table.print(std::cout);
     std::cout << medians << alone << growth_line(results) << std::flush;
 }

@@ -15,10 +15,11 @@ namespace pierce::bench {
 namespace {
 
 constexpr std::array k_columns = {
-    column::pierce,       column::pierce_two_threads,  column::pierce_batch,  column::pierce_any,   column::pierce_any_batch,
-    column::fronts,       column::fronts_batch,        column::grid,          column::grid_batch,   column::pierce_double,
-    column::pierce_double_batch, column::embree,       column::embree_any,    column::embree_stream, column::embree_robust,
-    column::embree_low,   column::bullet,              column::cgal_any,      column::cgal_first};
+    column::pierce,        column::pierce_two_threads,  column::pierce_batch,  column::pierce_any,
+    column::pierce_any_batch, column::fronts,           column::fronts_batch,  column::grid,
+    column::grid_batch,    column::pierce_double,       column::pierce_double_batch, column::embree,
+    column::embree_any,    column::embree_stream,       column::embree_robust, column::embree_low,
+    column::bullet,        column::cgal_any,            column::cgal_first};
 
 void print_set(const Results& results, const std::vector<Measured>& meshes, std::string_view set,
                std::string_view title) {
@@ -58,7 +59,7 @@ void print_figures(const Results& results, const std::vector<Measured>& meshes) 
     for (const SegmentSet set : k_segment_sets)
         print_set(results, meshes, name_of(set), "ns a query; " + std::string(description_of(set)));
     print_set(results, meshes, set_name::build,
-              "Build: milliseconds of one thread to the first answer, in memory of a build before; Embree builds again");
+              "Build: milliseconds of one thread to the first answer, in warm memory; Embree builds again");
     print_set(results, meshes, set_name::build_fresh,
               "First build: the same in fresh memory; Embree's scene is made anew, its buffers filled");
     print_set(results, meshes, set_name::memory,

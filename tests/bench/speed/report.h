@@ -15,8 +15,8 @@ struct Measured {
 /// One table for each set, a row for each mesh.
 void print_figures(const Results& results, const std::vector<Measured>& meshes);
 
-/// Each ratio on each mesh, and then lines `ratio NAME VALUE`: medians over the real meshes, some scenes alone, and how time
-/// grows with faces. What was not measured has no line. ratios.cpp has these.
+/// Each ratio on each mesh, and then lines `ratio NAME VALUE`: medians over the real meshes, some scenes alone, and how
+/// time grows with faces. What was not measured has no line.
 void print_ratios(const Results& results, const std::vector<Measured>& meshes);
 
 /// Three digits, and more only before the point.

@@ -1,4 +1,4 @@
-// How fast is pierce, and how fast are the libraries that people use in its place? On the same segments, in one process.
+// How fast is pierce, and how fast are its peers? On the same segments, in one process.
 //   speed [--quick] [--large] [--seconds S] [--out FOLDER] [FILTER]
 // Prints Markdown, and at its end lines `ratio NAME VALUE`. Ends with status 1 if answers differ that must not.
 #include <exception>
