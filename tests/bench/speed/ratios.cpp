@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <map>
 
 #include "../table.h"
 #include "builds.h"
@@ -91,7 +92,7 @@ void print_ratios(const Results& results, const std::vector<Measured>& meshes) {
     head.emplace_back("median, real");
     Table table(head);
     std::string medians;
-    std::string alone;
+    std::map<std::string_view, std::string> alone;
     for (const RatioLine& line : ratio_lines()) {
         std::vector<std::string> row = {line.name};
         std::vector<double> real;
@@ -101,7 +102,7 @@ void print_ratios(const Results& results, const std::vector<Measured>& meshes) {
             if (!ratio) continue;
             if (m.mesh.kind == MeshKind::real) real.push_back(*ratio);
             if (line.alone && std::find(k_alone.begin(), k_alone.end(), m.mesh.name) != k_alone.end())
-                alone += line_of(m.mesh.name + '.' + line.name.substr(k_main_peer.size()), *ratio);
+                alone[m.mesh.name] += line_of(m.mesh.name + '.' + line.name.substr(k_main_peer.size()), *ratio);
         }
         row.push_back(real.empty() ? "-" : number(median(real)));
         if (!real.empty()) medians += line_of(line.name, median(real));
@@ -112,7 +113,9 @@ void print_ratios(const Results& results, const std::vector<Measured>& meshes) {
                  "better. Sets that are taken together count by their time. What is timed, and how: "
                  "tests/bench/README.md.\n\n";
     table.print(std::cout);
-    std::cout << medians << alone << growth_line(results) << std::flush;
+    std::cout << medians;
+    for (const auto& [mesh, lines] : alone) std::cout << lines;
+    std::cout << growth_line(results) << std::flush;
 }
 
 }  // namespace pierce::bench
