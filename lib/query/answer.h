@@ -46,7 +46,7 @@ void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candi
         }
         return !any.found();
     };
-    const int tries = verify(hit, path, normal, side, clear);
+    const int tries = verify(hit, path, normal, options.sides, side, clear);
     counters.retreats += static_cast<std::uint64_t>(tries);
 }
 

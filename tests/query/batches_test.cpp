@@ -214,9 +214,9 @@ TYPED_TEST(Batches, hold_for_every_grid) {
 }
 
 // A thread starts in the arithmetic of the one that made it.
-std::array<std::uint64_t, 8> fields(const QueryCounters& c) {
-    static_assert(sizeof c == 8 * sizeof(std::uint64_t));
-    return {c.queries, c.cells, c.triangles, c.exact_decisions, c.exact_orders, c.exact_values, c.exact_sides, c.retreats};
+std::array<std::uint64_t, 9> fields(const QueryCounters& c) {
+    static_assert(sizeof c == 9 * sizeof(std::uint64_t));
+    return {c.queries, c.nodes, c.clusters, c.triangles, c.exact_decisions, c.exact_orders, c.exact_values, c.exact_sides, c.retreats};
 }
 
 // What is counted once depended on a query's neighbours: with crowded cells, on whether the list of all of them was full.

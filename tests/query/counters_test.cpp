@@ -11,7 +11,8 @@ namespace {
 
 void expect_equal(const QueryCounters& x, const QueryCounters& y) {
     EXPECT_EQ(x.queries, y.queries);
-    EXPECT_EQ(x.cells, y.cells);
+    EXPECT_EQ(x.nodes, y.nodes);
+    EXPECT_EQ(x.clusters, y.clusters);
     EXPECT_EQ(x.triangles, y.triangles);
     EXPECT_EQ(x.exact_decisions, y.exact_decisions);
     EXPECT_EQ(x.exact_orders, y.exact_orders);
