@@ -24,13 +24,13 @@ inline void* allocate_raw(std::size_t bytes) {
     constexpr std::size_t k_page = std::size_t{1} << 21;
     void* memory = nullptr;
     if (bytes < k_page) {
-        memory = std::malloc(bytes);
+        memory = std::aligned_alloc(64, (bytes + 63) / 64 * 64);  // cache lines
 #if defined(__linux__)
     } else if (posix_memalign(&memory, k_page, bytes) == 0) {
         madvise(memory, bytes / k_page * k_page, MADV_HUGEPAGE);
 #else
     } else {
-        memory = std::malloc(bytes);
+        memory = std::aligned_alloc(64, (bytes + 63) / 64 * 64);
 #endif
     }
     if (memory == nullptr && bytes > 0) throw std::bad_alloc();

@@ -32,14 +32,18 @@ void each_candidate(const Scene<Scalar>& scene, const Path& path, Sides sides, d
     if (first_limit < 0) return;
     struct Context {
         const Probe<Scalar>& probe;
+        ClusterRef empty;
+        float limit;
         QueryCounters& counters;
         Use& use;
     };
-    Context context{probe, counters, use};
+    Context context{probe, scene.clusters.empty, first_limit, counters, use};
     const Visit visit = [](void* self, std::uint32_t cluster, unsigned lanes) {
-        const auto& [asked, counts, call] = *static_cast<Context*>(self);
-        counts.triangles += static_cast<unsigned>(std::popcount(lanes));
-        return parameter(asked, call(cluster, lanes));
+        Context& c = *static_cast<Context*>(self);
+        // An empty place of a node is visited where the noise is larger than the scene.
+        if (cluster == c.empty) [[unlikely]] return c.limit;
+        c.counters.triangles += static_cast<unsigned>(std::popcount(lanes));
+        return c.limit = parameter(c.probe, c.use(cluster, lanes));
     };
     kernels.traverse(scene.tree.view(), scene.clusters.records.data(), probe, first_limit, visit, &context);
     counters.nodes += probe.nodes;

@@ -97,7 +97,6 @@ void traverse(const Scene<Scalar>& scene, const Path& path, const QueryOptions& 
     each_candidate(scene, path, options.sides, limit(), counters, [&](ClusterRef cluster, unsigned lanes) {
         for (; lanes != 0; lanes &= lanes - 1) {
             const TriangleRef triangle{cluster, static_cast<std::uint32_t>(std::countr_zero(lanes))};
-            if (cluster == scene.clusters.empty) break;
             if (list != nullptr) list->add(triangle);
             test_triangle<Kernel>(scene, path, triangle, options, counters, collector);
         }
