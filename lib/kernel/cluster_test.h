@@ -17,7 +17,7 @@
 //   one of U, V, W is above e and one below -e: the line, and each that is beside it, passes an edge on its outer side
 //   T and E are both above f or both below -f: the segment up to `limit` stays on one side
 //   T < -f and only fronts count, T > f and only backs.
-// Underflow: a product loses at most 2^-150, times at most two others: `floor`, 2^-130 (1 + R)^2 with R >= S, D, H, is added. Overflow:
+// Underflow: a product loses at most 2^-150, times at most two others: `floor`, 2^-120 (1 + R)^2 with R >= S, D, H, is added. Overflow:
 // for float the scene is between 2^-30 and 2^31 wide or `floor` is infinite; for double all are scene units, below 32.
 // NaN and infinite bounds: each comparison is false, and nothing is refused.
 #pragma once
