@@ -1,0 +1,133 @@
+// Triangles sorted by key, the order cut into ranges of at most eight, each written as a record.
+#include <cluster/make_clusters.h>
+
+#include <exception>
+
+#include <chunks.h>
+#include <cluster/morton_order.h>
+#include <cluster/write_cluster.h>
+
+namespace pierce::detail {
+
+namespace {
+
+// So many triangles are cut and written as one part of the work. (The same for any executor.)
+constexpr std::uint32_t k_part = 1U << 13;
+// Clusters with more than ten times the area that one has when the scene's is shared out, one for five triangles, are split where that pays:
+// measured, under one in a hundred.
+constexpr double k_large = 10 * 5;
+
+template <class Scalar>
+struct Part {
+    Range range;
+    std::vector<ClusterBox<Scalar>> boxes;
+    std::size_t degenerate = 0;
+    std::size_t first = 0;  // of its boxes among all
+    std::exception_ptr failure;
+};
+
+template <class Scalar>
+void write_part(Part<Scalar>& part, const CornerReader<Scalar>& reader, std::uint64_t* entries, ClusterWriter<Scalar> writer) {
+    RangeCutter<Scalar> cutter(reader, entries);
+    std::vector<Range> stack;
+    part.boxes.reserve(part.range.size() / 4 + 8);
+    cutter.cut(part.range, k_most_in_cluster, stack, [&](const Range& range) {
+        part.degenerate += writer.write(range, cutter.key_of(range), part.range.end, part.boxes);
+    });
+}
+
+// The scene's largest extent times this is in [0.5, 1), halved first since the difference of the largest numbers overflows.
+template <class Scalar>
+Scalar unit_of(const QuadBox<Scalar>& box) {
+    const Scalar half_extent = largest_of<Scalar>(box.high * Scalar(0.5) - box.low * Scalar(0.5));
+    return half_extent > 0 ? power_to_reach(-2, half_extent) : Scalar(1);
+}
+
+template <class Scalar>
+void write_empty_record(Clusters<Scalar>& clusters, std::size_t place) {
+    Scalar* record = clusters.records.data() + k_row_count * place;
+    std::fill_n(record, k_row_count + k_beyond_records, Scalar(0));
+    std::memcpy(record + 9, &k_no_triangle, sizeof k_no_triangle);
+    clusters.empty = cluster_ref(static_cast<std::uint32_t>(place), 1);
+}
+
+// Of the parts' boxes one list, in scene units.
+template <class Scalar>
+void join(std::vector<Part<Scalar>>& parts, ClusterBuild<Scalar>& build, const Executor& executor) {
+    std::vector<QuadBox<Scalar>> bounds(parts.size());
+    executor(parts.size(), [&](std::size_t p) {
+        for (const ClusterBox<Scalar>& box : parts[p].boxes) bounds[p].add(box_of<Scalar>(box));
+    });
+    std::size_t count = 0;
+    QuadBox<Scalar> all;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        parts[p].first = count;
+        count += parts[p].boxes.size();
+        build.degenerate += parts[p].degenerate;
+        all.add(bounds[p]);
+    }
+    if (count == 0) return;
+    for (int k = 0; k < 3; ++k) {
+        build.low[k] = all.low[k];
+        build.high[k] = all.high[k];
+        build.largest = std::max({build.largest, std::abs(build.low[k]), std::abs(build.high[k])});
+    }
+    const Scalar unit = unit_of(all);
+    build.unit = unit;
+    build.boxes = RawArray<ClusterBox<Scalar>>(count);
+    executor(parts.size(), [&](std::size_t p) {
+        ClusterBox<Scalar>* to = build.boxes.data() + parts[p].first;
+        for (ClusterBox<Scalar> box : parts[p].boxes) {
+            for (int k = 0; k < 3; ++k) {
+                box.low[k] *= unit;
+                box.high[k] *= unit;
+            }
+            *to++ = box;
+        }
+        std::vector<ClusterBox<Scalar>>().swap(parts[p].boxes);
+    });
+}
+
+}  // namespace
+
+template <class Scalar>
+ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero_area)(const Corners&), const Executor& executor) {
+    ClusterBuild<Scalar> build;
+    const std::size_t count = mesh.triangles.size();
+    build.clusters.records = RawArray<Scalar>(k_row_count * (count + 1) + k_beyond_records);
+    write_empty_record(build.clusters, count);
+    if (count == 0) return build;
+    MortonOrder<Scalar> order = morton_order(mesh, executor);
+    const CornerReader<Scalar> reader(mesh);
+    std::uint64_t* entries = order.entries.data();
+
+    std::vector<Part<Scalar>> parts;
+    std::vector<Range> stack;
+    RangeCutter<Scalar>(reader, entries).cut({0, static_cast<std::uint32_t>(count), 0, false, false}, k_part, stack, [&](const Range& range) {
+        parts.push_back({});
+        parts.back().range = range;
+    });
+
+    const QuadBox<Scalar>& box = order.box;
+    const Scalar unit = unit_of(box);
+    const Scalar area = QuadBox<Scalar>{box.low * unit, box.high * unit}.area();
+    const ClusterWriter<Scalar> writer(reader, entries, unit, static_cast<Scalar>(k_large / static_cast<double>(count)) * area, has_zero_area,
+                                       build.clusters.records.data());
+    executor(parts.size(), [&](std::size_t p) {
+        try {
+            write_part(parts[p], reader, entries, writer);
+        } catch (...) {
+            parts[p].failure = std::current_exception();
+        }
+    });
+    for (const Part<Scalar>& part : parts)
+        if (part.failure) std::rethrow_exception(part.failure);
+    order.entries = {};
+    join(parts, build, executor);
+    return build;
+}
+
+template ClusterBuild<float> make_clusters(const MeshView<float>&, bool (*)(const Corners&), const Executor&);
+template ClusterBuild<double> make_clusters(const MeshView<double>&, bool (*)(const Corners&), const Executor&);
+
+}  // namespace pierce::detail
