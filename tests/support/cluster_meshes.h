@@ -55,7 +55,7 @@ Soup<Scalar> nested_soup(int least_exponent, int largest_exponent, int copies) {
 /// A scene of large triangles, and in it many that are small: all of them less than a step of the scene's lattice.
 template <class Scalar>
 Soup<Scalar> teapot_in_stadium(int count, double teapot) {
-    Soup<Scalar> soup = random_soup<Scalar>(count, teapot / 30, teapot, 0.1 / teapot, 4);
+    Soup<Scalar> soup = random_soup<Scalar>(count, 0.03, teapot, 0.1 / teapot, 4);
     const Soup<Scalar> stadium = random_soup<Scalar>(count / 40, 0.3, 1, 0, 5);
     for (const IndexTriple& t : stadium.triangles) soup.add(stadium.positions[t[0]], stadium.positions[t[1]], stadium.positions[t[2]]);
     return soup;
