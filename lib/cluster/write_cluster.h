@@ -89,12 +89,14 @@ class ClusterWriter {
                 return;
             }
         }
-        Scalar* to = records_ + k_row_count * place;
-        for (std::size_t row = 0; row < 9; ++row)
-            for (unsigned i = 0; i < n; ++i) *to++ = corners_[order_[begin + i]][row / 3][static_cast<int>(row % 3)];
-        for (unsigned i = 0; i < n; ++i, ++to) {
+        Scalar* const record = records_ + k_row_count * place;
+        for (unsigned i = 0; i < n; ++i) {
+            const unsigned t = order_[begin + i];
+            Scalar* to = record + i;
+            for (const Quad<Scalar>& corner : corners_[t])
+                for (int k = 0; k < 3; ++k, to += n) *to = corner[k];
             *to = 0;
-            std::memcpy(to, &numbers_[order_[begin + i]], sizeof numbers_[0]);
+            std::memcpy(to, &numbers_[t], sizeof numbers_[t]);
         }
         ClusterBox<Scalar> out;
         set_box(out, box);
