@@ -26,7 +26,8 @@ class RangeCutter {
   public:
     RangeCutter(const CornerReader<Scalar>& reader, std::uint64_t* entries) : reader_(reader), entries_(entries) {}
 
-    /// Cuts until ranges have at most `size` triangles and calls `visit(range)` for each, in order. No more than `stack` holds memory.
+    /// Cuts until ranges have at most `size` triangles and calls `visit(range)` for each, in order. No more than
+    /// `stack` holds memory.
     template <class Visit>
     void cut(const Range& whole, std::uint32_t size, std::vector<Range>& stack, Visit&& visit) {
         stack.assign(1, whole);
@@ -48,10 +49,13 @@ class RangeCutter {
     }
 
   private:
-    // Where the highest bit changes that is not the same in all keys; if all are the same, keys of a finer lattice are made; if centres are the
+    // Where the highest bit changes that is not the same in all keys; if all are the same, keys of a finer lattice are
+    // made; if centres are the
     // same as well, in the middle. Each finer lattice tells the lowest centre from the highest, so this ends.
     std::uint32_t place_to_cut(Range& range) {
-        const auto differing = [&] { return static_cast<std::uint32_t>((entries_[range.begin] ^ entries_[range.end - 1]) >> 32); };
+        const auto differing = [&] {
+            return static_cast<std::uint32_t>((entries_[range.begin] ^ entries_[range.end - 1]) >> 32);
+        };
         std::uint32_t bits = range.flat ? 0 : differing();
         if (bits == 0 && !range.flat) {
             make_finer_keys(range);
@@ -73,7 +77,9 @@ class RangeCutter {
     void make_finer_keys(Range& range) {
         range.key = key_of(range);
         range.has_key = true;
-        const auto center = [&](std::uint32_t i) { return half_center(reader_.box(static_cast<std::uint32_t>(entries_[i]))); };
+        const auto center = [&](std::uint32_t i) {
+            return half_center(reader_.box(static_cast<std::uint32_t>(entries_[i])));
+        };
         QuadBox<Scalar> box;
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
             const Quad<Scalar> c = center(i);

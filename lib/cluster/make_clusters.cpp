@@ -13,7 +13,8 @@ namespace {
 
 // So many triangles are cut and written as one part of the work. (The same for any executor.)
 constexpr std::uint32_t k_part = 1U << 13;
-// Clusters with more than ten times the area that one has when the scene's is shared out, one for five triangles, are split where that pays:
+// Clusters with more than ten times the area that one has when the scene's is shared out, one for five triangles, are
+// split where that pays:
 // measured, under one in a hundred.
 constexpr double k_large = 10 * 5;
 
@@ -27,7 +28,8 @@ struct Part {
 };
 
 template <class Scalar>
-void write_part(Part<Scalar>& part, const CornerReader<Scalar>& reader, std::uint64_t* entries, ClusterWriter<Scalar> writer) {
+void write_part(Part<Scalar>& part, const CornerReader<Scalar>& reader, std::uint64_t* entries,
+                ClusterWriter<Scalar> writer) {
     RangeCutter<Scalar> cutter(reader, entries);
     std::vector<Range> stack;
     part.boxes.reserve(part.range.size() / 4 + 8);
@@ -36,7 +38,8 @@ void write_part(Part<Scalar>& part, const CornerReader<Scalar>& reader, std::uin
     });
 }
 
-// The scene's largest extent times this is in [0.5, 1), halved first since the difference of the largest numbers overflows.
+// The scene's largest extent times this is in [0.5, 1), halved first since the difference of the largest numbers
+// overflows.
 template <class Scalar>
 Scalar unit_of(const QuadBox<Scalar>& box) {
     const Scalar half_extent = largest_of<Scalar>(box.high * Scalar(0.5) - box.low * Scalar(0.5));
@@ -91,7 +94,8 @@ void join(std::vector<Part<Scalar>>& parts, ClusterBuild<Scalar>& build, const E
 }  // namespace
 
 template <class Scalar>
-ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero_area)(const Corners&), const Executor& executor) {
+ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero_area)(const Corners&),
+                                   const Executor& executor) {
     ClusterBuild<Scalar> build;
     const std::size_t count = mesh.triangles.size();
     build.clusters.records = RawArray<Scalar>(k_row_count * (count + 1) + k_beyond_records);
@@ -103,15 +107,17 @@ ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero
 
     std::vector<Part<Scalar>> parts;
     std::vector<Range> stack;
-    RangeCutter<Scalar>(reader, entries).cut({0, static_cast<std::uint32_t>(count), 0, false, false}, k_part, stack, [&](const Range& range) {
-        parts.push_back({});
-        parts.back().range = range;
-    });
+    RangeCutter<Scalar>(reader, entries)
+        .cut({0, static_cast<std::uint32_t>(count), 0, false, false}, k_part, stack, [&](const Range& range) {
+            parts.push_back({});
+            parts.back().range = range;
+        });
 
     const QuadBox<Scalar>& box = order.box;
     const Scalar unit = unit_of(box);
     const Scalar area = QuadBox<Scalar>{box.low * unit, box.high * unit}.area();
-    const ClusterWriter<Scalar> writer(reader, entries, unit, static_cast<Scalar>(k_large / static_cast<double>(count)) * area, has_zero_area,
+    const ClusterWriter<Scalar> writer(reader, entries, unit,
+                                       static_cast<Scalar>(k_large / static_cast<double>(count)) * area, has_zero_area,
                                        build.clusters.records.data());
     executor(parts.size(), [&](std::size_t p) {
         try {

@@ -9,9 +9,12 @@
 
 namespace pierce::detail {
 
-/// `unit`: the power of two with which the largest extent of what is listed is in [0.5, 1) (near the ends of the number range as close to that as
-/// powers of two go). `boxes`: one of each cluster, in Morton order, in scene units. Triangles of area zero are counted, and in no cluster;
-/// the rest has its bounds in `low` and `high` and its largest |coordinate| in `largest`, in the caller's coordinates (0 if there is none).
+/// `unit`: the power of two with which the largest extent of what is listed is in [0.5, 1) (near the ends of the number
+/// range as close to that as
+/// powers of two go). `boxes`: one of each cluster, in Morton order, in scene units. Triangles of area zero are
+/// counted, and in no cluster;
+/// the rest has its bounds in `low` and `high` and its largest |coordinate| in `largest`, in the caller's coordinates
+/// (0 if there is none).
 template <class Scalar>
 struct ClusterBuild {
     Clusters<Scalar> clusters;
@@ -23,9 +26,11 @@ struct ClusterBuild {
     double largest = 0;
 };
 
-/// Positions have to be finite where a triangle has them; there must be fewer triangles than `k_most_triangles` (the record behind the last
+/// Positions have to be finite where a triangle has them; there must be fewer triangles than `k_most_triangles` (the
+/// record behind the last
 /// needs a place as well). `has_zero_area` decides exactly where floating point cannot. Throws only std::bad_alloc.
 template <class Scalar>
-[[nodiscard]] ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero_area)(const Corners&), const Executor& executor);
+[[nodiscard]] ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero_area)(const Corners&),
+                                                 const Executor& executor);
 
 }  // namespace pierce::detail

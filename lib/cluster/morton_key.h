@@ -1,4 +1,5 @@
-// Corners from the caller's memory, and the keys of triangles: their places on a lattice of 1024 cells along each axis, in Z-order (Morton 1966).
+// Corners from the caller's memory, and the keys of triangles: their places on a lattice of 1024 cells along each axis,
+// in Z-order (Morton 1966).
 #pragma once
 
 #include <algorithm>
@@ -35,16 +36,20 @@ class CornerReader {
     std::size_t last_;
 };
 
-/// The power of two that brings a positive number to [2^exponent, 2^(exponent + 1)), or as near as powers that are not subnormal can.
+/// The power of two that brings a positive number to [2^exponent, 2^(exponent + 1)), or as near as powers that are not
+/// subnormal can.
 template <class Scalar>
 [[nodiscard]] Scalar power_to_reach(int exponent, Scalar x) {
     using Limits = std::numeric_limits<Scalar>;
-    return std::ldexp(Scalar(1), std::clamp(exponent - std::ilogb(x), Limits::min_exponent - 1, Limits::max_exponent - 1));
+    return std::ldexp(Scalar(1),
+                      std::clamp(exponent - std::ilogb(x), Limits::min_exponent - 1, Limits::max_exponent - 1));
 }
 
 /// Half of a box's centre: neither the sum nor a difference of two of them overflows.
 template <class Scalar>
-[[gnu::always_inline]] inline Quad<Scalar> half_center(const QuadBox<Scalar>& box) { return box.low * Scalar(0.25) + box.high * Scalar(0.25); }
+[[gnu::always_inline]] inline Quad<Scalar> half_center(const QuadBox<Scalar>& box) {
+    return box.low * Scalar(0.25) + box.high * Scalar(0.25);
+}
 
 /// Cubic cells over all the half centres that there are.
 template <class Scalar>

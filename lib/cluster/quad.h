@@ -1,4 +1,5 @@
-// Four numbers in step, for points and boxes of the build: plain vectors of GCC and Clang, for whatever the processor has.
+// Four numbers in step, for points and boxes of the build: plain vectors of GCC and Clang, for whatever the processor
+// has.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +28,12 @@ using Quad = typename QuadOf<Scalar>::type;
 typedef std::int32_t IntQuad __attribute__((vector_size(16)));
 
 template <class Scalar>
-[[gnu::always_inline]] inline Quad<Scalar> all_of(Scalar x) { return Quad<Scalar>{x, x, x, x}; }
+[[gnu::always_inline]] inline Quad<Scalar> all_of(Scalar x) {
+    return Quad<Scalar>{x, x, x, x};
+}
 
-/// Three numbers with a fourth place behind them, which is anybody's: it is set to zero, since sums with what may be a subnormal there are slow.
+/// Three numbers with a fourth place behind them, which is anybody's: it is set to zero, since sums with what may be a
+/// subnormal there are slow.
 template <class Scalar>
 [[gnu::always_inline]] inline Quad<Scalar> load_quad(const Scalar* from) {
     typename QuadOf<Scalar>::mask bits;
@@ -40,9 +44,13 @@ template <class Scalar>
     return quad;
 }
 template <class Q>
-[[gnu::always_inline]] inline Q least(Q a, Q b) { return a < b ? a : b; }
+[[gnu::always_inline]] inline Q least(Q a, Q b) {
+    return a < b ? a : b;
+}
 template <class Q>
-[[gnu::always_inline]] inline Q most(Q a, Q b) { return a > b ? a : b; }
+[[gnu::always_inline]] inline Q most(Q a, Q b) {
+    return a > b ? a : b;
+}
 template <class Scalar>
 [[gnu::always_inline]] inline Scalar largest_of(const Quad<Scalar>& q) {
     const Scalar xy = q[0] > q[1] ? q[0] : q[1];

@@ -1,4 +1,5 @@
-// Triangles of one range gathered, those without area left out, and written as one record; as several where the range is large and that pays.
+// Triangles of one range gathered, those without area left out, and written as one record; as several where the range
+// is large and that pays.
 #pragma once
 
 #include <array>
@@ -12,8 +13,10 @@
 
 namespace pierce::detail {
 
-/// Certain that the area is not zero. Edges p, q from one corner and n = p x q, computed: with u twice the half unit of the numbers and M the largest
-/// |component| of p and q, each component of n is within 8u M^2 (kernel/plane.h derives it). M is kept to where products lose less than a
+/// Certain that the area is not zero. Edges p, q from one corner and n = p x q, computed: with u twice the half unit of
+/// the numbers and M the largest
+/// |component| of p and q, each component of n is within 8u M^2 (kernel/plane.h derives it). M is kept to where
+/// products lose less than a
 /// thousandth of u M^2 to underflow, and none overflows.
 template <class Number>
 [[nodiscard, gnu::always_inline]] inline bool certainly_has_area(Quad<Number> a, Quad<Number> b, Quad<Number> c) {
@@ -24,7 +27,8 @@ template <class Number>
                            __builtin_shufflevector(p, p, 2, 0, 1, 3) * __builtin_shufflevector(q, q, 1, 2, 0, 3);
     const Number size = largest_of<Number>(most(most(p, -p), most(q, -q)));
     const Number normal = largest_of<Number>(most(n, -n));
-    return size >= k_least && size <= 1 / k_least && normal > 8 * std::numeric_limits<Number>::epsilon() * (size * size);  // false for NaN
+    return size >= k_least && size <= 1 / k_least &&
+           normal > 8 * std::numeric_limits<Number>::epsilon() * (size * size);  // false for NaN
 }
 
 using HasZeroArea = bool (*)(const Corners&);
@@ -33,12 +37,18 @@ template <class Scalar>
 class ClusterWriter {
   public:
     /// `unit` makes the scene about 1 wide; what has a larger `large_area` then is split where that pays.
-    ClusterWriter(const CornerReader<Scalar>& reader, const std::uint64_t* entries, Scalar unit, Scalar large_area, HasZeroArea has_zero_area,
-                  Scalar* records)
-        : reader_(reader), entries_(entries), unit_(unit), large_area_(large_area), has_zero_area_(has_zero_area), records_(records) {}
+    ClusterWriter(const CornerReader<Scalar>& reader, const std::uint64_t* entries, Scalar unit, Scalar large_area,
+                  HasZeroArea has_zero_area, Scalar* records)
+        : reader_(reader),
+          entries_(entries),
+          unit_(unit),
+          large_area_(large_area),
+          has_zero_area_(has_zero_area),
+          records_(records) {}
 
     /// `end`: of the entries that may be asked of memory ahead. Returns the number of triangles without area.
-    std::size_t write(const Range& range, std::uint32_t key, std::uint32_t end, std::vector<ClusterBox<Scalar>>& boxes) {
+    std::size_t write(const Range& range, std::uint32_t key, std::uint32_t end,
+                      std::vector<ClusterBox<Scalar>>& boxes) {
         count_ = 0;
         QuadBox<Scalar> all;
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
@@ -73,9 +83,12 @@ class ClusterWriter {
         const auto& x = reader_.mesh().positions;
         const Corners corners = {to_point(x[t[0]]), to_point(x[t[1]]), to_point(x[t[2]])};
         const auto quad = [](const Point& p) { return Quad<double>{p[0], p[1], p[2], 0}; };
-        return !certainly_has_area<double>(quad(corners[0]), quad(corners[1]), quad(corners[2])) && has_zero_area_(corners);
+        return !certainly_has_area<double>(quad(corners[0]), quad(corners[1]), quad(corners[2])) &&
+               has_zero_area_(corners);
     }
-    [[nodiscard]] Scalar area(const QuadBox<Scalar>& box) const { return QuadBox<Scalar>{box.low * unit_, box.high * unit_}.area(); }
+    [[nodiscard]] Scalar area(const QuadBox<Scalar>& box) const {
+        return QuadBox<Scalar>{box.low * unit_, box.high * unit_}.area();
+    }
 
     // Triangles order_[begin, end), whose box is `box`, to the places from `place` on.
     void split(unsigned begin, unsigned end, const QuadBox<Scalar>& box, std::uint32_t place, std::uint32_t key,
@@ -110,7 +123,8 @@ class ClusterWriter {
         return box;
     }
 
-    // Tries to split by position along each axis and by size. Two boxes pay if they have less than three quarters of the one's area: each costs
+    // Tries to split by position along each axis and by size. Two boxes pay if they have less than three quarters of
+    // the one's area: each costs
     // a place in a node. Returns how many go first, and puts these first; 0 if nothing pays.
     unsigned best_cut(unsigned begin, unsigned end, Scalar whole) {
         const unsigned n = end - begin;
@@ -125,7 +139,8 @@ class ClusterWriter {
                 order[i] = static_cast<std::uint8_t>(t);
                 keys[t] = way < 3 ? half_center(boxes_[t])[way] : area(boxes_[t]);
             }
-            std::sort(order.begin(), order.begin() + n, [&](unsigned i, unsigned j) { return keys[i] < keys[j] || (keys[i] == keys[j] && i < j); });
+            std::sort(order.begin(), order.begin() + n,
+                      [&](unsigned i, unsigned j) { return keys[i] < keys[j] || (keys[i] == keys[j] && i < j); });
             std::array<Scalar, k_most_in_cluster> areas_behind;
             QuadBox<Scalar> sum;
             for (unsigned i = n; i-- > 1;) {

@@ -1,4 +1,5 @@
-// A tree of sixteen equal parts at every node, whatever the boxes are: never deeper than the number of clusters asks for.
+// A tree of sixteen equal parts at every node, whatever the boxes are: never deeper than the number of clusters asks
+// for.
 #pragma once
 
 #include <tree/emit.h>
@@ -7,7 +8,8 @@ namespace pierce::detail {
 
 /// Over the clusters in their order. At most 7 deep: there are fewer than 2^28.
 template <class Scalar, class Encoder>
-[[nodiscard]] Tree balanced_tree(std::span<const ClusterBox<Scalar>> clusters, ClusterRef empty, const Encoder& encoder) {
+[[nodiscard]] Tree balanced_tree(std::span<const ClusterBox<Scalar>> clusters, ClusterRef empty,
+                                 const Encoder& encoder) {
     struct Todo {
         std::size_t begin;
         std::size_t end;

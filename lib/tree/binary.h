@@ -18,7 +18,8 @@ struct Binary {
     std::uint32_t count;
 };
 
-/// What a subtree costs as at most i + 1 children of a wide node (Ylitie, Karras and Laine 2017, section 3.1): expected steps of a query, times
+/// What a subtree costs as at most i + 1 children of a wide node (Ylitie, Karras and Laine 2017, section 3.1): expected
+/// steps of a query, times
 /// the scene's area. [0] is its cost as a node of its own.
 struct alignas(16) CostRow {
     std::array<float, k_children> cost;

@@ -1,4 +1,5 @@
-// Which nodes of a binary tree become children of a wide one: the cheapest choice there is, by dynamic programming (Ylitie, Karras and Laine 2017).
+// Which nodes of a binary tree become children of a wide one: the cheapest choice there is, by dynamic programming
+// (Ylitie, Karras and Laine 2017).
 #pragma once
 
 #include <array>
@@ -23,11 +24,14 @@ class Collapse {
         std::array<float, k_children>& cost = rows_[at].cost;
         if (node.count > 0) {
             float sum = 0;
-            for (std::uint32_t i = 0; i < node.count; ++i) sum += static_cast<float>(box_of<Scalar>(clusters_[node.at + i]).area());
-            for (std::uint32_t i = 0; i < k_children; ++i) cost[i] = k_cluster_cost * sum + (i + 1 < node.count ? own : 0);
+            for (std::uint32_t i = 0; i < node.count; ++i)
+                sum += static_cast<float>(box_of<Scalar>(clusters_[node.at + i]).area());
+            for (std::uint32_t i = 0; i < k_children; ++i)
+                cost[i] = k_cluster_cost * sum + (i + 1 < node.count ? own : 0);
             return;
         }
-        // cost[i] is the least left[j] + right[i - 1 - j]: rows of `right` moved up by j + 1, with what is below it infinite.
+        // cost[i] is the least left[j] + right[i - 1 - j]: rows of `right` moved up by j + 1, with what is below it
+        // infinite.
         std::array<float, 2 * k_children> right;
         std::fill_n(right.begin(), k_children, std::numeric_limits<float>::infinity());
         std::copy_n(rows_[node.at + 1].cost.begin(), k_children, right.begin() + k_children);
@@ -65,7 +69,8 @@ class Collapse {
             const Part part = stack[--depth];
             const Binary<Scalar>& node = nodes_[part.node];
             const std::array<float, k_children>& cost = rows_[part.node].cost;
-            const bool open = node.count > 0 ? node.count <= part.places : part.places > 1 && cost[part.places - 1] < cost[0];
+            const bool open =
+                node.count > 0 ? node.count <= part.places : part.places > 1 && cost[part.places - 1] < cost[0];
             if (!top && !open) {
                 out[count++] = {part.node, false};
             } else if (node.count > 0) {
@@ -75,7 +80,8 @@ class Collapse {
                 const std::array<float, k_children>& right = rows_[node.at + 1].cost;
                 unsigned best = 1;
                 for (unsigned j = 2; j < part.places; ++j)
-                    if (left[j - 1] + right[part.places - j - 1] < left[best - 1] + right[part.places - best - 1]) best = j;
+                    if (left[j - 1] + right[part.places - j - 1] < left[best - 1] + right[part.places - best - 1])
+                        best = j;
                 stack[depth++] = {node.at + 1, part.places - best};
                 stack[depth++] = {node.at, best};
             }

@@ -40,8 +40,8 @@ class NodeList {
 
 /// `children`: references, in the order of `boxes`.
 template <class Scalar, class Encoder>
-void write_node(NodeList& nodes, std::uint32_t at, const QuadBox<Scalar>* boxes, const std::uint32_t* children, unsigned count, ClusterRef empty,
-                const Encoder& encoder) {
+void write_node(NodeList& nodes, std::uint32_t at, const QuadBox<Scalar>* boxes, const std::uint32_t* children,
+                unsigned count, ClusterRef empty, const Encoder& encoder) {
     auto& node = nodes.make<typename Encoder::Kind>(at);
     encoder.encode(node, boxes, count);
     std::copy_n(children, count, node.child);

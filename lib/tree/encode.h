@@ -9,7 +9,8 @@
 
 namespace pierce::detail {
 
-/// The lattice of a scene with the given bounds: its step is the least power of two with which all bounds are in [1, 65534] (`Lattice::bounds`).
+/// The lattice of a scene with the given bounds: its step is the least power of two with which all bounds are in [1,
+/// 65534] (`Lattice::bounds`).
 /// `unit` is set already.
 inline void set_frame(Frame& frame, const QuadBox<double>& scene) {
     const double extent = largest_of<double>(scene.high - scene.low);
@@ -27,22 +28,25 @@ inline void set_frame(Frame& frame, const QuadBox<double>& scene) {
     }
 }
 
-/// Bounds on the scene's lattice. x - low is within 2^-53 of itself, of at most 65536 steps, so within 2^-37 steps; dividing by a power of two
-/// is exact; what scene units lost to underflow (2^-150, 2^-1075) is nothing beside a step where they did (over 2^-18, node.h's Frame:
-/// `unit` is below 1 only for scenes wider than 1/2). Taking and adding 2^-30 steps rounds by 2^-37 again and is more than all that.
+/// Bounds on the scene's lattice. x - low is within 2^-53 of itself, of at most 65536 steps, so within 2^-37 steps;
+/// dividing by a power of two
+/// is exact; what scene units lost to underflow (2^-150, 2^-1075) is nothing beside a step where they did (over 2^-18,
+/// node.h's Frame:
+/// `unit` is below 1 only for scenes wider than 1/2). Taking and adding 2^-30 steps rounds by 2^-37 again and is more
+/// than all that.
 class Lattice {
   public:
     using Kind = Node;
     static constexpr bool k_coarse = false;
 
-    explicit Lattice(const Frame& frame)
-        : low_{frame.low[0], frame.low[1], frame.low[2], 0}, scale_(1 / frame.step) {}
+    explicit Lattice(const Frame& frame) : low_{frame.low[0], frame.low[1], frame.low[2], 0}, scale_(1 / frame.step) {}
 
     template <class Scalar>
     void encode(Node& node, const QuadBox<Scalar>* boxes, unsigned count) const {
         for (unsigned i = 0; i < count; ++i) {
             const Quad<double> low = (__builtin_convertvector(boxes[i].low, Quad<double>) - low_) * scale_ - 0x1p-30;
-            const Quad<double> high = (__builtin_convertvector(boxes[i].high, Quad<double>) - low_) * scale_ + (1 + 0x1p-30);
+            const Quad<double> high =
+                (__builtin_convertvector(boxes[i].high, Quad<double>) - low_) * scale_ + (1 + 0x1p-30);
             const IntQuad l = __builtin_convertvector(low, IntQuad);
             const IntQuad h = __builtin_convertvector(high, IntQuad);
             for (int k = 0; k < 3; ++k) {
@@ -62,8 +66,10 @@ class Lattice {
     double scale_;
 };
 
-/// Bounds in a frame of the node's own. All that is subtracted is within the scene's extent E of 0, so within 2^-52 E of the exact number, scene
-/// units lost to underflow included; `slack` is 2^-48 E. Bounds in steps lose 2^-52 of at most 256 in each of two operations: 2^-40 steps are more.
+/// Bounds in a frame of the node's own. All that is subtracted is within the scene's extent E of 0, so within 2^-52 E
+/// of the exact number, scene
+/// units lost to underflow included; `slack` is 2^-48 E. Bounds in steps lose 2^-52 of at most 256 in each of two
+/// operations: 2^-40 steps are more.
 class OwnFrames {
   public:
     using Kind = CoarseNode;
@@ -82,14 +88,17 @@ class OwnFrames {
         const QuadBox<double> whole = relative(all);
         for (int k = 0; k < 3; ++k) {
             const double origin = whole.low[k] - slack_;
-            // 254 of 255 steps: what rounding to float takes from a step, and to double from the rest, is far below 1 / 255 of it.
+            // 254 of 255 steps: what rounding to float takes from a step, and to double from the rest, is far below 1 /
+            // 255 of it.
             const float step = static_cast<float>((whole.high[k] + slack_ - origin) / 254);
             node.origin[k] = origin;
             node.step[k] = step;
             for (unsigned i = 0; i < count; ++i) {
                 const QuadBox<double> box = relative(boxes[i]);
-                node.bounds[2 * k][i] = static_cast<std::uint8_t>(std::max(0.0, (box.low[k] - origin) / static_cast<double>(step) - 0x1p-40));
-                node.bounds[2 * k + 1][i] = static_cast<std::uint8_t>((box.high[k] - origin) / static_cast<double>(step) + (1 + 0x1p-40));
+                node.bounds[2 * k][i] = static_cast<std::uint8_t>(
+                    std::max(0.0, (box.low[k] - origin) / static_cast<double>(step) - 0x1p-40));
+                node.bounds[2 * k + 1][i] =
+                    static_cast<std::uint8_t>((box.high[k] - origin) / static_cast<double>(step) + (1 + 0x1p-40));
             }
             for (unsigned i = count; i < k_children; ++i) {
                 node.bounds[2 * k][i] = 255;
@@ -102,7 +111,8 @@ class OwnFrames {
     // Relative to the lattice's low end, with half the slack around it.
     template <class Scalar>
     [[nodiscard]] QuadBox<double> relative(const QuadBox<Scalar>& box) const {
-        return {__builtin_convertvector(box.low, Quad<double>) - low_ - slack_ / 2, __builtin_convertvector(box.high, Quad<double>) - low_ + slack_ / 2};
+        return {__builtin_convertvector(box.low, Quad<double>) - low_ - slack_ / 2,
+                __builtin_convertvector(box.high, Quad<double>) - low_ + slack_ / 2};
     }
 
     Quad<double> low_;

@@ -13,7 +13,8 @@ namespace pierce::detail {
 
 constexpr std::uint32_t k_most_in_group = 16;
 
-/// Subtrees of the radix tree of keys again. What is larger than `large_area` stays apart. Returns where groups begin, and the end.
+/// Subtrees of the radix tree of keys again. What is larger than `large_area` stays apart. Returns where groups begin,
+/// and the end.
 template <class Scalar>
 [[nodiscard]] std::vector<std::uint32_t> find_groups(std::span<const ClusterBox<Scalar>> boxes, Scalar large_area) {
     struct Range {
@@ -38,8 +39,9 @@ template <class Scalar>
             std::uint32_t middle = range.begin + (range.end - range.begin) / 2;
             if (const std::uint32_t bits = boxes[range.begin].key ^ boxes[range.end - 1].key; bits != 0) {
                 const int bit = 31 - std::countl_zero(bits);
-                const auto first_one = std::partition_point(boxes.begin() + range.begin, boxes.begin() + range.end,
-                                                            [bit](const ClusterBox<Scalar>& box) { return (box.key >> bit & 1) == 0; });
+                const auto first_one =
+                    std::partition_point(boxes.begin() + range.begin, boxes.begin() + range.end,
+                                         [bit](const ClusterBox<Scalar>& box) { return (box.key >> bit & 1) == 0; });
                 middle = static_cast<std::uint32_t>(first_one - boxes.begin());
             }
             stack.push_back({middle, range.end});

@@ -1,4 +1,5 @@
-// Groups of clusters get subtrees of their own, the groups a top in two ways; the cheaper one is collapsed to wide nodes.
+// Groups of clusters get subtrees of their own, the groups a top in two ways; the cheaper one is collapsed to wide
+// nodes.
 #include <tree/make_tree.h>
 
 #include <chunks.h>
@@ -17,11 +18,14 @@ namespace {
 constexpr std::uint32_t k_leaf_size = 6;
 // Groups with more than so many times the area that a cluster has when the scene's is shared out are split.
 constexpr double k_large_group = 100;
-// So many steps wide at the lower quartile, clusters are good enough on the scene's lattice. (The stadium has 0.02, the kitchen 9, others 300.)
+// So many steps wide at the lower quartile, clusters are good enough on the scene's lattice. (The stadium has 0.02, the
+// kitchen 9, others 300.)
 constexpr double k_fine_enough = 3;
 
 // Nodes of a group with so many clusters, at most: each split leaves one with fewer by one at least, down to a leaf.
-std::uint32_t node_room(std::uint32_t clusters) { return clusters <= k_leaf_size ? 1 : 2 * (clusters - k_leaf_size) + 1; }
+std::uint32_t node_room(std::uint32_t clusters) {
+    return clusters <= k_leaf_size ? 1 : 2 * (clusters - k_leaf_size) + 1;
+}
 
 // The binary nodes: first those of all groups, then both tops.
 template <class Scalar>
@@ -36,23 +40,28 @@ struct Forest {
 // A tree in each group, and what it costs.
 template <class Scalar>
 void grow_groups(Forest<Scalar>& forest, std::span<ClusterBox<Scalar>> boxes, const Executor& executor) {
-    each_chunk(executor, forest.group_count(), [&](std::size_t, std::size_t begin, std::size_t end) {
-        ClusterBox<Scalar> spare[k_most_in_group];
-        SahSet<Scalar> stack[k_most_in_group];
-        SahSplitter splitter = make_splitter<Scalar>(boxes.data(), spare, [](const ClusterBox<Scalar>&) { return 1U; });
-        Collapse<Scalar> collapse(forest.nodes.data(), forest.rows.data(), boxes);
-        for (std::size_t g = begin; g < end; ++g) {
-            const std::uint32_t root = forest.roots[g];
-            const std::uint32_t free = make_binary<Scalar>(splitter, forest.groups[g], forest.groups[g + 1], k_leaf_size, forest.nodes.data(),
-                                                           root, root + 1, stack, [&](const SahSet<Scalar>& set) {
-                Binary<Scalar>& leaf = forest.nodes[set.node];
-                set_box(leaf, set.box);
-                leaf.at = set.begin;
-                leaf.count = set.size();
-            });
-            for (std::uint32_t at = free; at-- > root;) collapse.find_cost(at);
-        }
-    }, 256);
+    each_chunk(
+        executor, forest.group_count(),
+        [&](std::size_t, std::size_t begin, std::size_t end) {
+            ClusterBox<Scalar> spare[k_most_in_group];
+            SahSet<Scalar> stack[k_most_in_group];
+            SahSplitter splitter =
+                make_splitter<Scalar>(boxes.data(), spare, [](const ClusterBox<Scalar>&) { return 1U; });
+            Collapse<Scalar> collapse(forest.nodes.data(), forest.rows.data(), boxes);
+            for (std::size_t g = begin; g < end; ++g) {
+                const std::uint32_t root = forest.roots[g];
+                const std::uint32_t free =
+                    make_binary<Scalar>(splitter, forest.groups[g], forest.groups[g + 1], k_leaf_size,
+                                        forest.nodes.data(), root, root + 1, stack, [&](const SahSet<Scalar>& set) {
+                                            Binary<Scalar>& leaf = forest.nodes[set.node];
+                                            set_box(leaf, set.box);
+                                            leaf.at = set.begin;
+                                            leaf.count = set.size();
+                                        });
+                for (std::uint32_t at = free; at-- > root;) collapse.find_cost(at);
+            }
+        },
+        256);
 }
 
 // Takes the group's tree to a leaf of a top.
@@ -79,11 +88,13 @@ struct SahTop {
         }
         std::fill(is_group.begin(), is_group.end(), std::uint8_t{0});
         SahSet<Scalar> stack[k_sah_stack];
-        SahSplitter splitter = make_splitter<Scalar>(items.data(), spare.data(), [](const Binary<Scalar>& item) { return item.count; });
-        const std::uint32_t end = make_binary<Scalar>(splitter, 0, count, 1, forest.nodes.data(), from, from + 1, stack, [&](const SahSet<Scalar>& set) {
-            graft(forest, set.node, items[set.begin].at);
-            is_group[set.node - from] = 1;
-        });
+        SahSplitter splitter =
+            make_splitter<Scalar>(items.data(), spare.data(), [](const Binary<Scalar>& item) { return item.count; });
+        const std::uint32_t end = make_binary<Scalar>(splitter, 0, count, 1, forest.nodes.data(), from, from + 1, stack,
+                                                      [&](const SahSet<Scalar>& set) {
+                                                          graft(forest, set.node, items[set.begin].at);
+                                                          is_group[set.node - from] = 1;
+                                                      });
         Collapse<Scalar> collapse(forest.nodes.data(), forest.rows.data(), boxes);
         for (std::uint32_t at = end; at-- > from;)
             if (is_group[at - from] == 0) collapse.find_cost(at);
@@ -130,9 +141,11 @@ bool needs_own_frames(std::span<const ClusterBox<Scalar>> boxes, const Frame& fr
 }
 
 template <class Scalar, class Encoder>
-Tree grow(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Scalar scene_area, const Encoder& encoder, const Executor& executor) {
+Tree grow(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Scalar scene_area, const Encoder& encoder,
+          const Executor& executor) {
     Forest<Scalar> forest;
-    forest.groups = find_groups<Scalar>(boxes, static_cast<Scalar>(k_large_group / static_cast<double>(boxes.size())) * scene_area);
+    forest.groups =
+        find_groups<Scalar>(boxes, static_cast<Scalar>(k_large_group / static_cast<double>(boxes.size())) * scene_area);
     const auto count = static_cast<std::uint32_t>(forest.groups.size() - 1);
     forest.roots.resize(count);
     std::uint32_t room = 0;
@@ -151,8 +164,10 @@ Tree grow(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Scalar scene_ar
         SahTop<Scalar> sah(count);
         PlocTop<Scalar> ploc(count);
         executor(2, [&](std::size_t which) {
-            if (which == 0) sah.make(forest, sah_root, boxes);
-            else has_ploc = ploc.make(forest, ploc_root, boxes);
+            if (which == 0)
+                sah.make(forest, sah_root, boxes);
+            else
+                has_ploc = ploc.make(forest, ploc_root, boxes);
         });
     }
     const float sah_cost = forest.rows[sah_root].cost[0];
@@ -171,7 +186,8 @@ template <class Scalar>
 Tree make_tree(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Frame& frame, const Executor& executor) {
     QuadBox<Scalar> scene;
     for (const ClusterBox<Scalar>& box : boxes) scene.add(box_of<Scalar>(box));
-    set_frame(frame, {__builtin_convertvector(scene.low, Quad<double>), __builtin_convertvector(scene.high, Quad<double>)});
+    set_frame(frame,
+              {__builtin_convertvector(scene.low, Quad<double>), __builtin_convertvector(scene.high, Quad<double>)});
     if (boxes.size() == 1) {
         Tree tree;
         tree.root = boxes[0].ref;

@@ -9,9 +9,12 @@
 
 namespace pierce::detail {
 
-/// `boxes`, of which there is at least one, are in Morton order and in scene units, and are put in another order; places without a child lead to
-/// `empty`. `frame.unit` is given, `low`, `high` and `step` are set. The tree is the same for any executor. Throws only std::bad_alloc.
+/// `boxes`, of which there is at least one, are in Morton order and in scene units, and are put in another order;
+/// places without a child lead to
+/// `empty`. `frame.unit` is given, `low`, `high` and `step` are set. The tree is the same for any executor. Throws only
+/// std::bad_alloc.
 template <class Scalar>
-[[nodiscard]] Tree make_tree(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Frame& frame, const Executor& executor);
+[[nodiscard]] Tree make_tree(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Frame& frame,
+                             const Executor& executor);
 
 }  // namespace pierce::detail

@@ -1,4 +1,5 @@
-// A binary tree from the leaves up: neighbours in Morton order that are each other's best are joined, round by round (Meister and Bittner 2018).
+// A binary tree from the leaves up: neighbours in Morton order that are each other's best are joined, round by round
+// (Meister and Bittner 2018).
 #pragma once
 
 #include <algorithm>
@@ -10,8 +11,10 @@
 
 namespace pierce::detail {
 
-/// Joins `count` items (whose `at` is kept in the leaves, with a `count` that is not 0) to a tree with its root at `root` and other nodes from
-/// `next` on. False if that takes too many rounds, as where the items' sizes grow along the order: each round would join one pair.
+/// Joins `count` items (whose `at` is kept in the leaves, with a `count` that is not 0) to a tree with its root at
+/// `root` and other nodes from
+/// `next` on. False if that takes too many rounds, as where the items' sizes grow along the order: each round would
+/// join one pair.
 template <class Scalar>
 class Ploc {
   public:
@@ -53,7 +56,8 @@ class Ploc {
   private:
     static constexpr std::size_t k_radius = 8;
 
-    // Of those that are equally good the first: then the first of the best pairs is joined in every round, and rounds end.
+    // Of those that are equally good the first: then the first of the best pairs is joined in every round, and rounds
+    // end.
     void find_best(std::size_t n) {
         std::fill_n(areas_.data(), n, std::numeric_limits<Scalar>::infinity());
         for (std::size_t i = 0; i < n; ++i) best_[i] = static_cast<std::uint32_t>(i == 0 ? 1 : i - 1);

@@ -32,7 +32,8 @@ struct SahSet {
 constexpr unsigned k_sah_deep = 48;
 constexpr std::size_t k_sah_stack = k_sah_deep + 32;
 
-/// Splits ranges of `items`, which have boxes; `weight(item)` is the number of clusters in one. `spare` has room for as many.
+/// Splits ranges of `items`, which have boxes; `weight(item)` is the number of clusters in one. `spare` has room for as
+/// many.
 template <class Scalar, class Item, class Weight>
 class SahSplitter {
   public:
@@ -44,7 +45,8 @@ class SahSplitter {
         return set;
     }
 
-    /// Neither part is empty. Deeper than `k_sah_deep` halves are taken whatever that costs: so no input makes trees of any depth or builds of any
+    /// Neither part is empty. Deeper than `k_sah_deep` halves are taken whatever that costs: so no input makes trees of
+    /// any depth or builds of any
     /// time. The same where bins can't tell the items from one another.
     [[nodiscard]] std::pair<SahSet<Scalar>, SahSet<Scalar>> split(const SahSet<Scalar>& set) {
         const std::uint32_t n = set.size();
@@ -59,7 +61,8 @@ class SahSplitter {
         const Cut cut = set.depth < k_sah_deep ? best_cut(set) : Cut{};
         if (cut.axis < 0) {
             const std::uint32_t middle = set.begin + n / 2;
-            for (std::uint32_t i = set.begin; i < set.end; ++i) (i < middle ? left : right).add(box_of<Scalar>(items_[i]));
+            for (std::uint32_t i = set.begin; i < set.end; ++i)
+                (i < middle ? left : right).add(box_of<Scalar>(items_[i]));
             left.end = right.begin = middle;
             return {left, right};
         }
@@ -90,7 +93,8 @@ class SahSplitter {
 
     [[nodiscard, gnu::always_inline]] IntQuad bin_of(const QuadBox<Scalar>& box) const {
         const Quad<Scalar> x = (box.low + box.high - low_) * scale_;
-        return __builtin_convertvector(least(x, all_of(static_cast<Scalar>(bins_ - 1))), IntQuad);  // not below 0: `low_` is the least
+        return __builtin_convertvector(least(x, all_of(static_cast<Scalar>(bins_ - 1))),
+                                       IntQuad);  // not below 0: `low_` is the least
     }
 
     Cut best_cut(const SahSet<Scalar>& set) {
@@ -123,7 +127,8 @@ class SahSplitter {
             for (int i = bins_; --i > 0;) {
                 sum.add(boxes_[k][i]);
                 weight += weights_[k][i];
-                const Scalar cost = below[i - 1] + sum.area() * static_cast<Scalar>(weight);  // no number where one side is empty
+                const Scalar cost =
+                    below[i - 1] + sum.area() * static_cast<Scalar>(weight);  // no number where one side is empty
                 if (weight == 0 || weights[i - 1] == 0 || !(cost < least_cost)) continue;
                 least_cost = cost;
                 best = {k, i};
@@ -147,11 +152,13 @@ template <class Scalar, class Item, class Weight>
     return {items, spare, weight};
 }
 
-/// Splits the items in [begin, end) down to sets of at most `leaf_size` and makes nodes of them: `root`, and others from `next` on. A leaf is what
+/// Splits the items in [begin, end) down to sets of at most `leaf_size` and makes nodes of them: `root`, and others
+/// from `next` on. A leaf is what
 /// `make_leaf(set)` makes of it. Returns the first node that is free. `stack` has room for `k_sah_stack` sets.
 template <class Scalar, class Splitter, class MakeLeaf>
-std::uint32_t make_binary(Splitter& splitter, std::uint32_t begin, std::uint32_t end, std::uint32_t leaf_size, Binary<Scalar>* nodes,
-                          std::uint32_t root, std::uint32_t next, SahSet<Scalar>* stack, MakeLeaf&& make_leaf) {
+std::uint32_t make_binary(Splitter& splitter, std::uint32_t begin, std::uint32_t end, std::uint32_t leaf_size,
+                          Binary<Scalar>* nodes, std::uint32_t root, std::uint32_t next, SahSet<Scalar>* stack,
+                          MakeLeaf&& make_leaf) {
     std::size_t depth = 0;
     stack[depth++] = splitter.set_of(root, begin, end);
     while (depth > 0) {

@@ -44,7 +44,8 @@ void expect_sound(const MeshView<Scalar>& mesh, const char* what) {
             const Corners corners = build.clusters.corners(box.ref, lane);
             for (std::size_t c = 0; c < 3; ++c)
                 for (std::size_t k = 0; k < 3; ++k) {
-                    const auto original = static_cast<double>(mesh.positions[mesh.triangles[number][c]][static_cast<int>(k)]);
+                    const auto original =
+                        static_cast<double>(mesh.positions[mesh.triangles[number][c]][static_cast<int>(k)]);
                     ASSERT_EQ(std::memcmp(&corners[c][k], &original, sizeof original), 0);
                     l[k] = std::min(l[k], original);
                     h[k] = std::max(h[k], original);
@@ -78,7 +79,8 @@ void expect_sound(const MeshView<Scalar>& mesh, const char* what) {
         extent = std::max(extent, high[k] * build.unit - low[k] * build.unit);
     }
     using Limits = std::numeric_limits<Scalar>;
-    if (build.unit > static_cast<double>(Limits::min()) && build.unit < std::ldexp(1.0, Limits::max_exponent - 1) && !build.boxes.empty()) {
+    if (build.unit > static_cast<double>(Limits::min()) && build.unit < std::ldexp(1.0, Limits::max_exponent - 1) &&
+        !build.boxes.empty()) {
         EXPECT_GE(extent, 0.5);
         EXPECT_LT(extent, 1.9);
     }
@@ -101,9 +103,11 @@ void expect_sound(const MeshView<Scalar>& mesh, const char* what) {
         for (std::size_t i = 0; i < build.boxes.size(); ++i) {
             const auto& a = build.boxes[i];
             const auto& b = other.boxes[i];
-            ASSERT_TRUE(a.ref == b.ref && a.key == b.key && std::equal(a.low, a.low + 3, b.low) && std::equal(a.high, a.high + 3, b.high));
+            ASSERT_TRUE(a.ref == b.ref && a.key == b.key && std::equal(a.low, a.low + 3, b.low) &&
+                        std::equal(a.high, a.high + 3, b.high));
             ASSERT_EQ(std::memcmp(build.clusters.record(a.ref), other.clusters.record(b.ref),
-                                  sizeof(Scalar) * detail::k_row_count * detail::count_of(a.ref)), 0);
+                                  sizeof(Scalar) * detail::k_row_count * detail::count_of(a.ref)),
+                      0);
         }
     }
 }
@@ -118,15 +122,19 @@ TYPED_TEST(MakeClusters, AllSizesOfScenes) {
     expect_sound(random_soup<TypeParam>(30000, 0.02, 1, 0, 1).view(), "unit cube");
     expect_sound(random_soup<TypeParam>(3000, 1, 1, 0, 2).view(), "large faces");
     expect_sound(random_soup<TypeParam>(3000, 0.1, 1, 1e4, 3).view(), "far away");
-    expect_sound(random_soup<TypeParam>(3000, 0.05, static_cast<double>(Limits::max()) / 4, 0, 4).view(), "the largest numbers");
-    expect_sound(random_soup<TypeParam>(500, 0.1, static_cast<double>(Limits::min()), 0, 5).view(), "subnormal numbers");
-    expect_sound(random_soup<TypeParam>(500, 0.5, 100 * static_cast<double>(Limits::denorm_min()), 0, 6).view(), "few different numbers");
+    expect_sound(random_soup<TypeParam>(3000, 0.05, static_cast<double>(Limits::max()) / 4, 0, 4).view(),
+                 "the largest numbers");
+    expect_sound(random_soup<TypeParam>(500, 0.1, static_cast<double>(Limits::min()), 0, 5).view(),
+                 "subnormal numbers");
+    expect_sound(random_soup<TypeParam>(500, 0.5, 100 * static_cast<double>(Limits::denorm_min()), 0, 6).view(),
+                 "few different numbers");
     expect_sound(teapot_in_stadium<TypeParam>(20000, 1e-5).view(), "teapot");
 }
 
 TYPED_TEST(MakeClusters, AllSizesInOneScene) {
     using Limits = std::numeric_limits<TypeParam>;
-    expect_sound(nested_soup<TypeParam>(Limits::min_exponent - Limits::digits + 1, Limits::max_exponent - 1, 12).view(), "nested");
+    expect_sound(nested_soup<TypeParam>(Limits::min_exponent - Limits::digits + 1, Limits::max_exponent - 1, 12).view(),
+                 "nested");
 }
 
 TYPED_TEST(MakeClusters, OneTriangleAgainAndAgain) {
@@ -149,7 +157,8 @@ TYPED_TEST(MakeClusters, NothingWithAnArea) {
 TYPED_TEST(MakeClusters, VerticesWithoutTriangles) {
     Soup<TypeParam> soup = random_soup<TypeParam>(5000, 0.02, 1, 0, 7);
     const ClusterBuild<TypeParam> before = detail::make_clusters(soup.view(), detail::has_zero_area, {});
-    for (const TypeParam far : {TypeParam(1e30), std::numeric_limits<TypeParam>::infinity(), std::numeric_limits<TypeParam>::quiet_NaN()}) {
+    for (const TypeParam far :
+         {TypeParam(1e30), std::numeric_limits<TypeParam>::infinity(), std::numeric_limits<TypeParam>::quiet_NaN()}) {
         soup.positions.push_back({far, far, -far});
         expect_sound(soup.view(), "far vertices");
         EXPECT_EQ(detail::make_clusters(soup.view(), detail::has_zero_area, {}).boxes.size(), before.boxes.size());

@@ -28,7 +28,9 @@ Soup<Scalar> random_soup(int count, double size, double scale, double center, un
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> in(-1, 1);
     const auto point = [&](double width, const Vec3<Scalar>& about) {
-        return Vec3<Scalar>(about + Vec3<double>(in(random), in(random), in(random)).cwiseProduct(Vec3<double>::Constant(width * scale)).template cast<Scalar>());
+        return Vec3<Scalar>(about + Vec3<double>(in(random), in(random), in(random))
+                                        .cwiseProduct(Vec3<double>::Constant(width * scale))
+                                        .template cast<Scalar>());
     };
     Soup<Scalar> soup;
     const Vec3<Scalar> middle = Vec3<double>::Constant(center * scale).cast<Scalar>();
@@ -57,7 +59,8 @@ template <class Scalar>
 Soup<Scalar> teapot_in_stadium(int count, double teapot) {
     Soup<Scalar> soup = random_soup<Scalar>(count, 0.03, teapot, 0.1 / teapot, 4);
     const Soup<Scalar> stadium = random_soup<Scalar>(count / 40, 0.3, 1, 0, 5);
-    for (const IndexTriple& t : stadium.triangles) soup.add(stadium.positions[t[0]], stadium.positions[t[1]], stadium.positions[t[2]]);
+    for (const IndexTriple& t : stadium.triangles)
+        soup.add(stadium.positions[t[0]], stadium.positions[t[1]], stadium.positions[t[2]]);
     return soup;
 }
 

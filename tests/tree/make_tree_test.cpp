@@ -60,9 +60,12 @@ class Checker {
         for (unsigned lane = 0; lane < detail::count_of(ref); ++lane)
             for (const detail::Point& corner : clusters_.corners(ref, lane)) {
                 ExactBox point;
-                for (std::size_t k = 0; k < 3; ++k) point.low[k] = point.high[k] = mpq_class(corner[k]) * mpq_class(frame_.unit);
-                if (box) box->add(point);
-                else box = point;
+                for (std::size_t k = 0; k < 3; ++k)
+                    point.low[k] = point.high[k] = mpq_class(corner[k]) * mpq_class(frame_.unit);
+                if (box)
+                    box->add(point);
+                else
+                    box = point;
             }
         return *box;
     }
@@ -70,7 +73,8 @@ class Checker {
         return mpq_class(frame.low[row / 2]) + node.bounds[row][i] * mpq_class(frame.step);
     }
     static mpq_class bound(const detail::CoarseNode& node, std::size_t row, unsigned i, const detail::Frame& frame) {
-        return mpq_class(frame.low[row / 2]) + mpq_class(node.origin[row / 2]) + node.bounds[row][i] * mpq_class(static_cast<double>(node.step[row / 2]));
+        return mpq_class(frame.low[row / 2]) + mpq_class(node.origin[row / 2]) +
+               node.bounds[row][i] * mpq_class(static_cast<double>(node.step[row / 2]));
     }
     template <class Kind>
     std::optional<ExactBox> check_node(const Kind& node, unsigned depth) {
@@ -90,8 +94,10 @@ class Checker {
                     if (node.bounds[2 * k][i] < 1 || node.bounds[2 * k + 1][i] > 65534) return {};
             }
             if (!below || !box.holds(*below)) return {};
-            if (all) all->add(*below);
-            else all = below;
+            if (all)
+                all->add(*below);
+            else
+                all = below;
         }
         return all;
     }
@@ -107,9 +113,11 @@ struct Built {
     detail::Frame frame;
     detail::Tree tree;
 
-    Built(const MeshView<Scalar>& mesh, const Executor& executor) : build(detail::make_clusters(mesh, detail::has_zero_area, executor)) {
+    Built(const MeshView<Scalar>& mesh, const Executor& executor)
+        : build(detail::make_clusters(mesh, detail::has_zero_area, executor)) {
         frame.unit = build.unit;
-        tree = detail::make_tree<Scalar>({build.boxes.data(), build.boxes.size()}, build.clusters.empty, frame, executor);
+        tree =
+            detail::make_tree<Scalar>({build.boxes.data(), build.boxes.size()}, build.clusters.empty, frame, executor);
     }
 };
 
@@ -129,7 +137,9 @@ detail::Tree expect_sound(const MeshView<Scalar>& mesh, const char* what) {
     EXPECT_EQ(checker.found, all);
     int exponent = 0;
     EXPECT_EQ(std::frexp(built.frame.step, &exponent), 0.5);
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(built.frame.high[k], static_cast<double>(static_cast<Scalar>(built.build.high[k]) * static_cast<Scalar>(built.build.unit)));
+    for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(built.frame.high[k], static_cast<double>(static_cast<Scalar>(built.build.high[k]) *
+                                                           static_cast<Scalar>(built.build.unit)));
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(built.tree.nodes.data()) % 64, 0U);
 
     for (const Executor& executor : {Executor(Reversed()), Executor(Threads())}) {
@@ -140,7 +150,9 @@ detail::Tree expect_sound(const MeshView<Scalar>& mesh, const char* what) {
         if (other.tree.node_count != built.tree.node_count) {
             ADD_FAILURE() << "nodes";
         } else if (other.tree.node_count > 0) {
-            EXPECT_EQ(std::memcmp(other.tree.nodes.data(), built.tree.nodes.data(), built.tree.node_count * sizeof(detail::Node)), 0);
+            EXPECT_EQ(std::memcmp(other.tree.nodes.data(), built.tree.nodes.data(),
+                                  built.tree.node_count * sizeof(detail::Node)),
+                      0);
         }
     }
     return std::move(built.tree);
@@ -156,20 +168,27 @@ TYPED_TEST(MakeTree, AllSizesOfScenes) {
     EXPECT_FALSE(expect_sound(random_soup<TypeParam>(20000, 0.02, 1, 0, 1).view(), "unit cube").coarse);
     EXPECT_FALSE(expect_sound(random_soup<TypeParam>(3000, 1, 1, 0, 2).view(), "large faces").coarse);
     expect_sound(random_soup<TypeParam>(3000, 0.1, 1, 1e4, 3).view(), "far away");
-    expect_sound(random_soup<TypeParam>(300, 1, 1, static_cast<double>(1 / Limits::epsilon()) / 64, 3).view(), "so far that few numbers are left");
-    expect_sound(random_soup<TypeParam>(3000, 0.05, static_cast<double>(Limits::max()) / 4, 0, 4).view(), "the largest numbers");
-    expect_sound(random_soup<TypeParam>(500, 0.1, static_cast<double>(Limits::min()), 0, 5).view(), "subnormal numbers");
-    expect_sound(random_soup<TypeParam>(500, 0.5, 100 * static_cast<double>(Limits::denorm_min()), 0, 6).view(), "few different numbers");
+    expect_sound(random_soup<TypeParam>(300, 1, 1, static_cast<double>(1 / Limits::epsilon()) / 64, 3).view(),
+                 "so far that few numbers are left");
+    expect_sound(random_soup<TypeParam>(3000, 0.05, static_cast<double>(Limits::max()) / 4, 0, 4).view(),
+                 "the largest numbers");
+    expect_sound(random_soup<TypeParam>(500, 0.1, static_cast<double>(Limits::min()), 0, 5).view(),
+                 "subnormal numbers");
+    expect_sound(random_soup<TypeParam>(500, 0.5, 100 * static_cast<double>(Limits::denorm_min()), 0, 6).view(),
+                 "few different numbers");
 }
 
 TYPED_TEST(MakeTree, FacesSmallerThanTheLattice) {
-    for (const double size : {3e-4, 1e-4, 1e-5}) EXPECT_TRUE(expect_sound(teapot_in_stadium<TypeParam>(10000, size).view(), "teapot").coarse);
+    for (const double size : {3e-4, 1e-4, 1e-5})
+        EXPECT_TRUE(expect_sound(teapot_in_stadium<TypeParam>(10000, size).view(), "teapot").coarse);
 }
 
 TYPED_TEST(MakeTree, AllSizesInOneScene) {
     using Limits = std::numeric_limits<TypeParam>;
     for (const int copies : {1, 9, 40})
-        expect_sound(nested_soup<TypeParam>(Limits::min_exponent - Limits::digits + 1, Limits::max_exponent - 1, copies).view(), "nested");
+        expect_sound(
+            nested_soup<TypeParam>(Limits::min_exponent - Limits::digits + 1, Limits::max_exponent - 1, copies).view(),
+            "nested");
     expect_sound(nested_soup<TypeParam>(-60, 20, 20).view(), "nested less deep");
 }
 
