@@ -24,7 +24,7 @@ class Ploc {
 
     [[nodiscard]] bool join(Binary<Scalar>* nodes, std::uint32_t root, std::uint32_t next) {
         std::size_t n = items_.size();
-        std::size_t work = 24 * n + 4096;  // in items; with every third pair joined it is 6 n
+        std::size_t work = 24 * n + 4096;  // in items; rounds that each leave five sixths take 6 n
         while (n > 1) {
             if (work < n) return false;
             work -= n;
