@@ -1,5 +1,7 @@
-// From a mesh to clusters: its triangles in Morton order, cut into records of up to eight.
+// From a mesh to clusters of triangles: the first half of the build.
 #pragma once
+
+#include <cstddef>
 
 #include <cluster/clusters.h>
 #include <pierce/executor.h>
@@ -7,19 +9,28 @@
 
 namespace pierce::detail {
 
+/// `unit`: the power of two with which the largest extent of what is listed is in [0.5, 1) (near the ends of the number
+/// range as close to that as
+/// powers of two go). `boxes`: one of each cluster, in Morton order, in scene units. Triangles of area zero are
+/// counted, and in no cluster;
+/// the rest has its bounds in `low` and `high` and its largest |coordinate| in `largest`, in the caller's coordinates
+/// (0 if there is none).
 template <class Scalar>
 struct ClusterBuild {
     Clusters<Scalar> clusters;
-    RawArray<ClusterBox<Scalar>> boxes;  ///< of all clusters, in Morton order
-    double unit = 1;                     ///< as in Frame
-    std::size_t degenerate = 0;          ///< triangles of area zero: in no cluster
-    double low[3] = {};                  ///< of all triangles in clusters, in the caller's units
+    RawArray<ClusterBox<Scalar>> boxes;
+    double unit = 1;
+    std::size_t degenerate = 0;
+    double low[3] = {};
     double high[3] = {};
-    double largest = 0;                  ///< the largest |coordinate| among them
+    double largest = 0;
 };
 
-/// The mesh has been checked. `has_zero_area` decides where a bound in double does not. O(n), in parts for the executor; the same for any.
+/// Positions have to be finite where a triangle has them; there must be fewer triangles than `k_most_triangles` (the
+/// record behind the last
+/// needs a place as well). `has_zero_area` decides exactly where floating point cannot. Throws only std::bad_alloc.
 template <class Scalar>
-[[nodiscard]] ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero_area)(const Corners&), const Executor& executor);
+[[nodiscard]] ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero_area)(const Corners&),
+                                                 const Executor& executor);
 
 }  // namespace pierce::detail

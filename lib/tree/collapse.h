@@ -1,71 +1,99 @@
-// From the binary tree to nodes of sixteen children: the cheapest such tree (Ylitie, Karras and Laine 2017, section 3.1).
-//
-// A subtree may stand in a node as a forest of up to i parts, each of them a cluster or a node of its own. The cost of the best such forest, by dynamic
-// programming from the leaves up: of two children's forests with i parts in all the cheapest pair, or one node of its own that holds sixteen parts. A node
-// costs its area times k_node_cost, a cluster its area times k_cluster_cost.
+// Which nodes of a binary tree become children of a wide one: the cheapest choice there is, by dynamic programming
+// (Ylitie, Karras and Laine 2017).
 #pragma once
 
-#include <tree/binary_tree.h>
+#include <array>
+#include <limits>
+#include <span>
+
+#include <cluster/clusters.h>
+#include <tree/binary.h>
 
 namespace pierce::detail {
 
+/// What nodes cost is in `rows`; children have to be known before.
 template <class Scalar>
 class Collapse {
   public:
-    static constexpr std::size_t k_parts = 16;
+    Collapse(const Binary<Scalar>* nodes, CostRow* rows, std::span<const ClusterBox<Scalar>> clusters)
+        : nodes_(nodes), rows_(rows), clusters_(clusters) {}
 
-    explicit Collapse(const BinaryTree<Scalar>& tree) : tree_(tree), costs_(tree.size()) {}
-
-    /// Needs the costs of both children.
-    void find_cost(std::size_t at) {
-        std::array<float, k_parts>& cost = costs_[at];
-        const auto area = static_cast<float>(tree_[at].box.half_area());
-        if (tree_[at].leaf()) {
-            cost.fill(area * k_cluster_cost);
+    void find_cost(std::uint32_t at) {
+        const Binary<Scalar>& node = nodes_[at];
+        const float own = k_node_cost * static_cast<float>(box_of<Scalar>(node).area());
+        std::array<float, k_children>& cost = rows_[at].cost;
+        if (node.count > 0) {
+            float sum = 0;
+            for (std::uint32_t i = 0; i < node.count; ++i)
+                sum += static_cast<float>(box_of<Scalar>(clusters_[node.at + i]).area());
+            for (std::uint32_t i = 0; i < k_children; ++i)
+                cost[i] = k_cluster_cost * sum + (i + 1 < node.count ? own : 0);
             return;
         }
-        const std::array<float, k_parts>& lower = costs_[tree_.lower(at)];
-        const std::array<float, k_parts>& upper = costs_[tree_.upper(at)];
-        std::array<float, k_parts> best;
-        best.fill(std::numeric_limits<float>::infinity());
-        for (std::size_t j = 0; j + 1 < k_parts; ++j)
-            for (std::size_t i = j + 1; i < k_parts; ++i) best[i] = std::min(best[i], lower[j] + upper[i - 1 - j]);
-        const float own = best[k_parts - 1] + area * k_node_cost;
-        for (std::size_t i = 1; i < k_parts; ++i) cost[i] = std::min(best[i], own);
-        cost[0] = own;
+        // cost[i] is the least left[j] + right[i - 1 - j]: rows of `right` moved up by j + 1, with what is below it
+        // infinite.
+        std::array<float, 2 * k_children> right;
+        std::fill_n(right.begin(), k_children, std::numeric_limits<float>::infinity());
+        std::copy_n(rows_[node.at + 1].cost.begin(), k_children, right.begin() + k_children);
+        const std::array<float, k_children>& left = rows_[node.at].cost;
+        constexpr std::size_t k_lanes = 4;
+        Quad<float> best[k_children / k_lanes];
+        for (Quad<float>& b : best) b = all_of(std::numeric_limits<float>::infinity());
+        for (std::size_t j = 0; j + 1 < k_children; ++j)
+            for (std::size_t part = 0; part < k_children / k_lanes; ++part) {
+                Quad<float> moved;
+                std::memcpy(&moved, &right[k_children - 1 - j + k_lanes * part], sizeof moved);
+                best[part] = least(best[part], moved + all_of(left[j]));
+            }
+        const float as_node = best[k_children / k_lanes - 1][k_lanes - 1] + own;
+        for (Quad<float>& b : best) b = least(b, all_of(as_node));
+        std::memcpy(cost.data(), best, sizeof cost);
     }
 
-    [[nodiscard]] float cost(std::size_t at) const { return costs_[at][0]; }
-
-    /// The binary subtrees that are the children of the node for a subtree; returns how many.
-    unsigned children(std::size_t at, std::array<std::size_t, k_parts>& out) const {
+    /// The children of the wide node that `root` becomes: clusters by their references, with `is_cluster`, and nodes.
+    struct Child {
+        std::uint32_t at;  ///< a cluster's place, or a node
+        bool is_cluster;
+    };
+    [[nodiscard]] unsigned children(std::uint32_t root, std::array<Child, k_children>& out) const {
+        struct Part {
+            std::uint32_t node;
+            unsigned places;
+        };
+        std::array<Part, k_children + 1> stack;
+        unsigned depth = 0;
         unsigned count = 0;
-        if (tree_[at].leaf()) out[count++] = at;
-        else open(at, k_parts, out, count);
+        stack[depth++] = {root, k_children};
+        bool top = true;
+        while (depth > 0) {
+            const Part part = stack[--depth];
+            const Binary<Scalar>& node = nodes_[part.node];
+            const std::array<float, k_children>& cost = rows_[part.node].cost;
+            const bool open =
+                node.count > 0 ? node.count <= part.places : part.places > 1 && cost[part.places - 1] < cost[0];
+            if (!top && !open) {
+                out[count++] = {part.node, false};
+            } else if (node.count > 0) {
+                for (std::uint32_t i = 0; i < node.count; ++i) out[count++] = {node.at + i, true};
+            } else {
+                const std::array<float, k_children>& left = rows_[node.at].cost;
+                const std::array<float, k_children>& right = rows_[node.at + 1].cost;
+                unsigned best = 1;
+                for (unsigned j = 2; j < part.places; ++j)
+                    if (left[j - 1] + right[part.places - j - 1] < left[best - 1] + right[part.places - best - 1])
+                        best = j;
+                stack[depth++] = {node.at + 1, part.places - best};
+                stack[depth++] = {node.at, best};
+            }
+            top = false;
+        }
         return count;
     }
 
   private:
-    static constexpr float k_node_cost = 1;
-    static constexpr float k_cluster_cost = 0.6F;  // measured: tests/bench/run
-
-    void part(std::size_t at, std::size_t parts, std::array<std::size_t, k_parts>& out, unsigned& count) const {
-        // NaN costs, of a tree that is not used, make a part here.
-        if (tree_[at].leaf() || parts == 1 || !(costs_[at][parts - 1] < costs_[at][0])) out[count++] = at;
-        else open(at, parts, out, count);
-    }
-    void open(std::size_t at, std::size_t parts, std::array<std::size_t, k_parts>& out, unsigned& count) const {
-        const std::array<float, k_parts>& lower = costs_[tree_.lower(at)];
-        const std::array<float, k_parts>& upper = costs_[tree_.upper(at)];
-        std::size_t best = 0;
-        for (std::size_t j = 1; j + 1 < parts; ++j)
-            if (lower[j] + upper[parts - 2 - j] < lower[best] + upper[parts - 2 - best]) best = j;
-        part(tree_.lower(at), best + 1, out, count);
-        part(tree_.upper(at), parts - 1 - best, out, count);
-    }
-
-    const BinaryTree<Scalar>& tree_;
-    RawArray<std::array<float, k_parts>> costs_;
+    const Binary<Scalar>* nodes_;
+    CostRow* rows_;
+    std::span<const ClusterBox<Scalar>> clusters_;
 };
 
 }  // namespace pierce::detail

@@ -1,72 +1,122 @@
-// Boxes as bounds of a node, rounded outward: each decoded box holds all of the child, in exact arithmetic.
+// Boxes in scene units to the bounds of a node, outward: each certainly holds what it should.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
+#include <cluster/quad.h>
 #include <node.h>
-#include <vector4.h>
 
 namespace pierce::detail {
 
-/// A child's box relative to Frame::low, in double. The difference of two numbers below 2 is within 2^-52 of the exact one (of two floats mostly exact).
-struct EncodedBox {
-    double low[3];
-    double high[3];
-    std::uint32_t child;
-};
-constexpr double k_encoding_slack = 0x1p-51;
-
-template <class Scalar>
-[[nodiscard]] EncodedBox relative_box(const Box4<Scalar>& box, const Frame& frame, std::uint32_t child) {
-    EncodedBox out;
-    for (int k = 0; k < 3; ++k) {
-        out.low[k] = static_cast<double>(box.low[k]) - frame.low[k] - k_encoding_slack;
-        out.high[k] = static_cast<double>(box.high[k]) - frame.low[k] + k_encoding_slack;
-    }
-    out.child = child;
-    return out;
-}
-
-/// Steps are powers of two: quotients are exact. The frame leaves two steps on each side, so nothing is cut off.
-inline void encode(const EncodedBox* boxes, unsigned count, std::uint32_t empty, const Frame& frame, Node& node) {
-    for (unsigned i = 0; i < k_children; ++i) {
-        node.child[i] = i < count ? boxes[i].child : empty;
+/// The lattice of a scene with the given bounds: its step is the least power of two with which all bounds are in [1,
+/// 65534] (`Lattice::bounds`).
+/// `unit` is set already.
+inline void set_frame(Frame& frame, const QuadBox<double>& scene) {
+    const double extent = largest_of<double>(scene.high - scene.low);
+    for (int k = 0; k < 3; ++k) frame.high[k] = scene.high[k];
+    for (frame.step = std::ldexp(1.0, std::ilogb(extent) - 16);; frame.step *= 2) {
+        bool fits = true;
         for (int k = 0; k < 3; ++k) {
-            node.bounds[2 * k][i] = 65535;
-            node.bounds[2 * k + 1][i] = 0;
-            if (i >= count) continue;
-            node.bounds[2 * k][i] = static_cast<std::uint16_t>(std::clamp(std::floor(boxes[i].low[k] / frame.step), 0.0, 65535.0));
-            node.bounds[2 * k + 1][i] = static_cast<std::uint16_t>(std::clamp(std::ceil(boxes[i].high[k] / frame.step), 0.0, 65535.0));
+            // Far from the origin doubles are farther apart than steps.
+            double low = scene.low[k] - 1.5 * frame.step;
+            while (scene.low[k] - low < 1.25 * frame.step) low = std::nextafter(low, -HUGE_VAL);
+            frame.low[k] = low;
+            fits = fits && scene.high[k] - low <= 65533 * frame.step;
         }
+        if (fits) return;
     }
 }
 
-/// A bound b stands for origin + b * step, where the product is exact and the sum within 2^-52: one slack more. Quotients round to within 2^-45 of
-/// themselves below 255: a thousandth is more than enough.
-inline void encode(const EncodedBox* boxes, unsigned count, std::uint32_t empty, const Frame&, CoarseNode& node) {
-    for (int k = 0; k < 3; ++k) {
-        double low = boxes[0].low[k];
-        double high = boxes[0].high[k];
-        for (unsigned i = 1; i < count; ++i) {
-            low = std::min(low, boxes[i].low[k]);
-            high = std::max(high, boxes[i].high[k]);
+/// Bounds on the scene's lattice. x - low is within 2^-53 of itself, of at most 65536 steps, so within 2^-37 steps;
+/// dividing by a power of two
+/// is exact; what scene units lost to underflow (2^-150, 2^-1075) is nothing beside a step where they did (over 2^-18,
+/// node.h's Frame:
+/// `unit` is below 1 only for scenes wider than 1/2). Taking and adding 2^-30 steps rounds by 2^-37 again and is more
+/// than all that.
+class Lattice {
+  public:
+    using Kind = Node;
+    static constexpr bool k_coarse = false;
+
+    explicit Lattice(const Frame& frame) : low_{frame.low[0], frame.low[1], frame.low[2], 0}, scale_(1 / frame.step) {}
+
+    template <class Scalar>
+    void encode(Node& node, const QuadBox<Scalar>* boxes, unsigned count) const {
+        for (unsigned i = 0; i < count; ++i) {
+            const Quad<double> low = (__builtin_convertvector(boxes[i].low, Quad<double>) - low_) * scale_ - 0x1p-30;
+            const Quad<double> high =
+                (__builtin_convertvector(boxes[i].high, Quad<double>) - low_) * scale_ + (1 + 0x1p-30);
+            const IntQuad l = __builtin_convertvector(low, IntQuad);
+            const IntQuad h = __builtin_convertvector(high, IntQuad);
+            for (int k = 0; k < 3; ++k) {
+                node.bounds[2 * k][i] = static_cast<std::uint16_t>(l[k]);
+                node.bounds[2 * k + 1][i] = static_cast<std::uint16_t>(h[k]);
+            }
         }
-        node.origin[k] = low - k_encoding_slack;
-        const auto step = static_cast<float>((high - low + 4 * k_encoding_slack) / 254 * (1 + 0x1p-20));
-        node.step[k] = step;
-        for (unsigned i = 0; i < k_children; ++i) {
-            node.bounds[2 * k][i] = 255;
-            node.bounds[2 * k + 1][i] = 0;
-            if (i >= count) continue;
-            const double from = (boxes[i].low[k] - k_encoding_slack - node.origin[k]) / static_cast<double>(step) - 0.001;
-            const double to = (boxes[i].high[k] + k_encoding_slack - node.origin[k]) / static_cast<double>(step) + 0.001;
-            node.bounds[2 * k][i] = static_cast<std::uint8_t>(std::clamp(std::floor(from), 0.0, 255.0));
-            node.bounds[2 * k + 1][i] = static_cast<std::uint8_t>(std::clamp(std::ceil(to), 0.0, 255.0));
+        for (unsigned i = count; i < k_children; ++i)
+            for (int k = 0; k < 3; ++k) {
+                node.bounds[2 * k][i] = 65535;
+                node.bounds[2 * k + 1][i] = 0;
+            }
+    }
+
+  private:
+    Quad<double> low_;
+    double scale_;
+};
+
+/// Bounds in a frame of the node's own. All that is subtracted is within the scene's extent E of 0, so within 2^-52 E
+/// of the exact number, scene
+/// units lost to underflow included; `slack` is 2^-48 E. Bounds in steps lose 2^-52 of at most 256 in each of two
+/// operations: 2^-40 steps are more.
+class OwnFrames {
+  public:
+    using Kind = CoarseNode;
+    static constexpr bool k_coarse = true;
+
+    explicit OwnFrames(const Frame& frame) : low_{frame.low[0], frame.low[1], frame.low[2], 0} {
+        const Quad<double> high = {frame.high[0], frame.high[1], frame.high[2], 0};
+        slack_ = 0x1p-48 * largest_of<double>(high - low_);
+    }
+
+    template <class Scalar>
+    void encode(CoarseNode& node, const QuadBox<Scalar>* boxes, unsigned count) const {
+        std::memset(node.unused, 0, sizeof node.unused);
+        QuadBox<Scalar> all;
+        for (unsigned i = 0; i < count; ++i) all.add(boxes[i]);
+        const QuadBox<double> whole = relative(all);
+        for (int k = 0; k < 3; ++k) {
+            const double origin = whole.low[k] - slack_;
+            // 254 of 255 steps: what rounding to float takes from a step, and to double from the rest, is far below 1 /
+            // 255 of it.
+            const float step = static_cast<float>((whole.high[k] + slack_ - origin) / 254);
+            node.origin[k] = origin;
+            node.step[k] = step;
+            for (unsigned i = 0; i < count; ++i) {
+                const QuadBox<double> box = relative(boxes[i]);
+                node.bounds[2 * k][i] = static_cast<std::uint8_t>(
+                    std::max(0.0, (box.low[k] - origin) / static_cast<double>(step) - 0x1p-40));
+                node.bounds[2 * k + 1][i] =
+                    static_cast<std::uint8_t>((box.high[k] - origin) / static_cast<double>(step) + (1 + 0x1p-40));
+            }
+            for (unsigned i = count; i < k_children; ++i) {
+                node.bounds[2 * k][i] = 255;
+                node.bounds[2 * k + 1][i] = 0;
+            }
         }
     }
-    for (unsigned i = 0; i < k_children; ++i) node.child[i] = i < count ? boxes[i].child : empty;
-    std::fill(std::begin(node.unused), std::end(node.unused), 0U);
-}
+
+  private:
+    // Relative to the lattice's low end, with half the slack around it.
+    template <class Scalar>
+    [[nodiscard]] QuadBox<double> relative(const QuadBox<Scalar>& box) const {
+        return {__builtin_convertvector(box.low, Quad<double>) - low_ - slack_ / 2,
+                __builtin_convertvector(box.high, Quad<double>) - low_ + slack_ / 2};
+    }
+
+    Quad<double> low_;
+    double slack_;
+};
 
 }  // namespace pierce::detail

@@ -1,157 +1,200 @@
-// From clusters to the wide tree: a binary tree in parts for the executor, its collapse, and the nodes' encoding.
+// Groups of clusters get subtrees of their own, the groups a top in two ways; the cheaper one is collapsed to wide
+// nodes.
 #include <tree/make_tree.h>
 
-#include <cmath>
-#include <vector>
-
-#include <tree/collapse.h>
+#include <chunks.h>
+#include <tree/balanced.h>
+#include <tree/emit.h>
 #include <tree/encode.h>
+#include <tree/groups.h>
+#include <tree/ploc.h>
+#include <tree/sah.h>
 
 namespace pierce::detail {
 
 namespace {
 
-constexpr std::uint32_t k_part_boxes = 2048;  ///< a subtree for a thread has no more
+// Leaves of binary trees have up to so many clusters: the collapse takes them as they are.
+constexpr std::uint32_t k_leaf_size = 6;
+// Groups with more than so many times the area that a cluster has when the scene's is shared out are split.
+constexpr double k_large_group = 100;
+// So many steps wide at the lower quartile, clusters are good enough on the scene's lattice. (The stadium has less than 0.05, the
+// kitchen 9, others 300.)
+constexpr double k_fine_enough = 3;
 
-template <class Scalar>
-Box4<Scalar> united(std::span<const ClusterBox<Scalar>> boxes) {
-    Box4<Scalar> all = Box4<Scalar>::none();
-    for (const ClusterBox<Scalar>& box : boxes) all.add(box4(box));
-    return all;
+// Nodes of a group with so many clusters, at most: each split leaves one with fewer by one at least, down to a leaf.
+std::uint32_t node_room(std::uint32_t clusters) {
+    return clusters <= k_leaf_size ? 1 : 2 * (clusters - k_leaf_size) + 1;
 }
 
+// The binary nodes: first those of all groups, then both tops.
 template <class Scalar>
-void fill_frame(const Box4<Scalar>& all, Frame& frame) {
-    double widest = 0;
-    for (int k = 0; k < 3; ++k) {
-        frame.low[k] = static_cast<double>(all.low[k]);
-        frame.high[k] = static_cast<double>(all.high[k]);
-        widest = std::max(widest, frame.high[k] - frame.low[k]);
-    }
-    widest = std::max(widest, std::numeric_limits<double>::min() * 0x1p20);
-    frame.step = std::ldexp(1.0, std::ilogb(widest) - 15);
-    while (widest > 65528 * frame.step) frame.step *= 2;
-    for (double& low : frame.low) low -= 3 * frame.step;
-}
+struct Forest {
+    std::vector<std::uint32_t> groups;  // where they begin, and the end
+    std::vector<std::uint32_t> roots;   // of them among the nodes
+    RawArray<Binary<Scalar>> nodes;
+    RawArray<CostRow> rows;
+    [[nodiscard]] std::uint32_t group_count() const { return static_cast<std::uint32_t>(roots.size()); }
+};
 
-// Whether the lattice's cells are large for the boxes: of a sample's largest extents the median is below eight.
+// A tree in each group, and what it costs.
 template <class Scalar>
-bool is_coarse(std::span<const ClusterBox<Scalar>> boxes, const Frame& frame) {
-    const std::size_t stride = boxes.size() / 4096 + 1;
-    std::vector<double> extents;
-    for (std::size_t i = 0; i < boxes.size(); i += stride) {
-        double extent = 0;
-        for (int k = 0; k < 3; ++k) extent = std::max(extent, static_cast<double>(boxes[i].high[k] - boxes[i].low[k]));
-        extents.push_back(extent);
-    }
-    const auto middle = extents.begin() + static_cast<std::ptrdiff_t>(extents.size() / 2);
-    std::nth_element(extents.begin(), middle, extents.end());
-    return *middle < 8 * frame.step;
-}
-
-template <class Scalar>
-class Builder {
-  public:
-    Builder(std::span<ClusterBox<Scalar>> boxes, const Executor& executor)
-        : boxes_(boxes), executor_(executor), tree_(boxes), collapse_(tree_) {}
-
-    void build(bool balanced) {
-        tree_.set(0, 0, static_cast<std::uint32_t>(boxes_.size()));
-        std::vector<std::size_t> tops;   // parents before children
-        std::vector<std::size_t> parts;
-        std::vector<std::size_t> stack{0};
-        while (!stack.empty()) {
-            const std::size_t at = stack.back();
-            stack.pop_back();
-            if (tree_[at].end - tree_[at].begin <= k_part_boxes) {
-                parts.push_back(at);
-                continue;
+void grow_groups(Forest<Scalar>& forest, std::span<ClusterBox<Scalar>> boxes, const Executor& executor) {
+    each_chunk(
+        executor, forest.group_count(),
+        [&](std::size_t, std::size_t begin, std::size_t end) {
+            ClusterBox<Scalar> spare[k_most_in_group];
+            SahSet<Scalar> stack[k_most_in_group];
+            SahSplitter splitter =
+                make_splitter<Scalar>(boxes.data(), spare, [](const ClusterBox<Scalar>&) { return 1U; });
+            Collapse<Scalar> collapse(forest.nodes.data(), forest.rows.data(), boxes);
+            for (std::size_t g = begin; g < end; ++g) {
+                const std::uint32_t root = forest.roots[g];
+                const std::uint32_t free =
+                    make_binary<Scalar>(splitter, forest.groups[g], forest.groups[g + 1], k_leaf_size,
+                                        forest.nodes.data(), root, root + 1, stack, [&](const SahSet<Scalar>& set) {
+                                            Binary<Scalar>& leaf = forest.nodes[set.node];
+                                            set_box(leaf, set.box);
+                                            leaf.at = set.begin;
+                                            leaf.count = set.size();
+                                        });
+                for (std::uint32_t at = free; at-- > root;) collapse.find_cost(at);
             }
-            tree_.split(at, balanced);
-            tops.push_back(at);
-            stack.push_back(tree_.upper(at));
-            stack.push_back(tree_.lower(at));
+        },
+        256);
+}
+
+// Takes the group's tree to a leaf of a top.
+template <class Scalar>
+void graft(Forest<Scalar>& forest, std::uint32_t node, std::uint32_t group) {
+    forest.nodes[node] = forest.nodes[forest.roots[group]];
+    forest.rows[node] = forest.rows[forest.roots[group]];
+}
+
+// Both tops, each with its root at `from` and its nodes behind it; costs of all. False: there is none.
+template <class Scalar>
+struct SahTop {
+    RawArray<Binary<Scalar>> items;
+    RawArray<Binary<Scalar>> spare;
+    RawArray<std::uint8_t> is_group;
+    explicit SahTop(std::size_t count) : items(count), spare(count), is_group(2 * count) {}
+
+    void make(Forest<Scalar>& forest, std::uint32_t from, std::span<const ClusterBox<Scalar>> boxes) {
+        const std::uint32_t count = forest.group_count();
+        for (std::uint32_t g = 0; g < count; ++g) {
+            items[g] = forest.nodes[forest.roots[g]];
+            items[g].at = g;
+            items[g].count = forest.groups[g + 1] - forest.groups[g];
         }
-        executor_(parts.size(), [&](std::size_t i) { build_part(parts[i], balanced); });
-        for (std::size_t i = tops.size(); i-- > 0;) collapse_.find_cost(tops[i]);
+        std::fill(is_group.begin(), is_group.end(), std::uint8_t{0});
+        SahSet<Scalar> stack[k_sah_stack];
+        SahSplitter splitter =
+            make_splitter<Scalar>(items.data(), spare.data(), [](const Binary<Scalar>& item) { return item.count; });
+        const std::uint32_t end = make_binary<Scalar>(splitter, 0, count, 1, forest.nodes.data(), from, from + 1, stack,
+                                                      [&](const SahSet<Scalar>& set) {
+                                                          graft(forest, set.node, items[set.begin].at);
+                                                          is_group[set.node - from] = 1;
+                                                      });
+        Collapse<Scalar> collapse(forest.nodes.data(), forest.rows.data(), boxes);
+        for (std::uint32_t at = end; at-- > from;)
+            if (is_group[at - from] == 0) collapse.find_cost(at);
     }
+};
 
-    [[nodiscard]] bool is_finite() const { return std::isfinite(collapse_.cost(0)); }
+template <class Scalar>
+struct PlocTop {
+    Ploc<Scalar> ploc;
+    explicit PlocTop(std::size_t count) : ploc(count) {}
 
-    /// False, and nothing of use, if the tree is too deep.
-    template <class AnyNode>
-    [[nodiscard]] bool write(ClusterRef empty, const Frame& frame, Tree& out) const {
-        struct Task {
-            std::size_t at;
-            std::uint32_t node;
-            unsigned depth;
+    bool make(Forest<Scalar>& forest, std::uint32_t from, std::span<const ClusterBox<Scalar>> boxes) {
+        const std::uint32_t count = forest.group_count();
+        for (std::uint32_t g = 0; g < count; ++g) {
+            ploc.items()[g] = forest.nodes[forest.roots[g]];
+            ploc.items()[g].at = g;
+            ploc.items()[g].count = 1;
+        }
+        if (!ploc.join(forest.nodes.data(), from, from + 1)) return false;
+        // Children were made before their parents, the root, at the front, last of all.
+        Collapse<Scalar> collapse(forest.nodes.data(), forest.rows.data(), boxes);
+        const auto finish = [&](std::uint32_t at) {
+            if (forest.nodes[at].count > 0) return graft(forest, at, forest.nodes[at].at);
+            collapse.find_cost(at);
         };
-        std::vector<Node> nodes(1);
-        nodes.reserve(boxes_.size() / 5 + 1);
-        std::vector<Task> stack{{0, 0, 1}};
-        out.depth = 0;
-        while (!stack.empty()) {
-            const Task task = stack.back();
-            stack.pop_back();
-            out.depth = std::max(out.depth, task.depth);
-            if (task.depth > k_most_depth) return false;
-            std::array<std::size_t, k_children> children;
-            std::array<EncodedBox, k_children> encoded;
-            const unsigned count = collapse_.children(task.at, children);
-            for (unsigned i = 0; i < count; ++i) {
-                const BinaryNode<Scalar>& child = tree_[children[i]];
-                std::uint32_t ref = boxes_[child.begin].ref;
-                if (!child.leaf()) {
-                    ref = static_cast<std::uint32_t>(nodes.size());
-                    nodes.emplace_back();
-                    stack.push_back({children[i], ref, task.depth + 1});
-                }
-                encoded[i] = relative_box(child.box, frame, ref);
-            }
-            AnyNode node;
-            encode(encoded.data(), count, empty, frame, node);
-            std::memcpy(static_cast<void*>(&nodes[task.node]), &node, sizeof node);
-        }
-        out.nodes = RawArray<Node>(nodes.size());
-        std::copy(nodes.begin(), nodes.end(), out.nodes.begin());
-        out.node_count = nodes.size();
+        for (std::uint32_t at = from + 1; at < from + 2 * count - 1; ++at) finish(at);
+        finish(from);
         return true;
     }
-
-  private:
-    // A subtree's nodes lie behind one another: costs from the last on.
-    void build_part(std::size_t root, bool balanced) {
-        const std::size_t end = root + 2 * std::size_t{tree_[root].end - tree_[root].begin} - 1;
-        for (std::size_t at = root; at < end; ++at)
-            if (!tree_[at].leaf()) tree_.split(at, balanced);
-        for (std::size_t at = end; at-- > root;) collapse_.find_cost(at);
-    }
-
-    std::span<ClusterBox<Scalar>> boxes_;
-    const Executor& executor_;
-    BinaryTree<Scalar> tree_;
-    Collapse<Scalar> collapse_;
 };
+
+// Whether the scene's lattice is too coarse, by some clusters that are evenly spread over all.
+template <class Scalar>
+bool needs_own_frames(std::span<const ClusterBox<Scalar>> boxes, const Frame& frame) {
+    const std::size_t stride = boxes.size() / 2048 + 1;
+    std::vector<double> extents;
+    for (std::size_t i = 0; i < boxes.size(); i += stride) {
+        const QuadBox<Scalar> box = box_of<Scalar>(boxes[i]);
+        extents.push_back(static_cast<double>(largest_of<Scalar>(box.high - box.low)));
+    }
+    const auto quartile = extents.begin() + static_cast<std::ptrdiff_t>(extents.size() / 4);
+    std::nth_element(extents.begin(), quartile, extents.end());
+    return *quartile < k_fine_enough * frame.step;
+}
+
+template <class Scalar, class Encoder>
+Tree grow(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Scalar scene_area, const Encoder& encoder,
+          const Executor& executor) {
+    Forest<Scalar> forest;
+    forest.groups =
+        find_groups<Scalar>(boxes, static_cast<Scalar>(k_large_group / static_cast<double>(boxes.size())) * scene_area);
+    const auto count = static_cast<std::uint32_t>(forest.groups.size() - 1);
+    forest.roots.resize(count);
+    std::uint32_t room = 0;
+    for (std::uint32_t g = 0; g < count; ++g) {
+        forest.roots[g] = room;
+        room += node_room(forest.groups[g + 1] - forest.groups[g]);
+    }
+    forest.nodes = RawArray<Binary<Scalar>>(room + 4 * std::size_t{count});
+    forest.rows = RawArray<CostRow>(forest.nodes.size());
+    grow_groups(forest, boxes, executor);
+
+    const std::uint32_t sah_root = room;
+    const std::uint32_t ploc_root = room + 2 * count;
+    bool has_ploc = false;
+    {
+        SahTop<Scalar> sah(count);
+        PlocTop<Scalar> ploc(count);
+        executor(2, [&](std::size_t which) {
+            if (which == 0)
+                sah.make(forest, sah_root, boxes);
+            else
+                has_ploc = ploc.make(forest, ploc_root, boxes);
+        });
+    }
+    const float sah_cost = forest.rows[sah_root].cost[0];
+    const std::uint32_t root = has_ploc && forest.rows[ploc_root].cost[0] < sah_cost ? ploc_root : sah_root;
+    if (forest.rows[root].cost[0] <= std::numeric_limits<float>::max()) {
+        const Collapse<Scalar> collapse(forest.nodes.data(), forest.rows.data(), boxes);
+        Tree tree = emit_tree<Scalar>(collapse, forest.nodes.data(), root, boxes, empty, encoder);
+        if (tree.depth <= k_most_depth) return tree;
+    }
+    return balanced_tree<Scalar>(boxes, empty, encoder);
+}
 
 }  // namespace
 
 template <class Scalar>
 Tree make_tree(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Frame& frame, const Executor& executor) {
-    fill_frame(united<Scalar>(boxes), frame);
-    Tree tree;
-    tree.coarse = is_coarse<Scalar>(boxes, frame);
+    QuadBox<Scalar> scene;
+    for (const ClusterBox<Scalar>& box : boxes) scene.add(box_of<Scalar>(box));
+    set_frame(frame,
+              {__builtin_convertvector(scene.low, Quad<double>), __builtin_convertvector(scene.high, Quad<double>)});
     if (boxes.size() == 1) {
+        Tree tree;
         tree.root = boxes[0].ref;
         return tree;
     }
-    Builder<Scalar> builder(boxes, executor);
-    const auto write = [&] { return tree.coarse ? builder.template write<CoarseNode>(empty, frame, tree) : builder.template write<Node>(empty, frame, tree); };
-    builder.build(false);
-    if (builder.is_finite() && write()) return tree;
-    // Of halves the depth is at most that of their number's logarithm.
-    builder.build(true);
-    if (!write()) std::abort();  // 2^28 clusters are 28 halvings
-    return tree;
+    if (needs_own_frames<Scalar>(boxes, frame)) return grow(boxes, empty, scene.area(), OwnFrames(frame), executor);
+    return grow(boxes, empty, scene.area(), Lattice(frame), executor);
 }
 
 template Tree make_tree(std::span<ClusterBox<float>>, ClusterRef, Frame&, const Executor&);

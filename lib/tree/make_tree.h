@@ -1,4 +1,4 @@
-// From clusters to the wide tree.
+// From the boxes of clusters to a tree: the second half of the build.
 #pragma once
 
 #include <span>
@@ -9,9 +9,12 @@
 
 namespace pierce::detail {
 
-/// `boxes`, at least one, in Morton order; they are put into another order. `frame` has its unit; the rest but for the noise is filled in. O(n log n), in
-/// parts for the executor; the same tree for any.
+/// `boxes`, of which there is at least one, are in Morton order and in scene units, and are put in another order;
+/// places without a child lead to
+/// `empty`. `frame.unit` is given, `low`, `high` and `step` are set. The tree is the same for any executor. Throws only
+/// std::bad_alloc.
 template <class Scalar>
-[[nodiscard]] Tree make_tree(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Frame& frame, const Executor& executor);
+[[nodiscard]] Tree make_tree(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Frame& frame,
+                             const Executor& executor);
 
 }  // namespace pierce::detail

@@ -1,17 +1,24 @@
-// The wide tree over clusters, built.
+// A tree over clusters as it is kept, and as kernels see it.
 #pragma once
+
+#include <cstddef>
 
 #include <node.h>
 #include <raw_array.h>
 
 namespace pierce::detail {
 
+/// What both kinds of nodes are in memory.
+struct alignas(64) NodeBytes {
+    unsigned char bytes[sizeof(Node)];
+};
+
 struct Tree {
-    RawArray<Node> nodes;  ///< CoarseNodes if `coarse`: as large, and read as what they are
+    RawArray<NodeBytes> nodes;  ///< the first `node_count` are Nodes, or CoarseNodes if `coarse`
+    std::size_t node_count = 0;
     std::uint32_t root = 0;
     bool coarse = false;
-    unsigned depth = 0;    ///< nodes on the longest way to a cluster
-    std::size_t node_count = 0;
+    unsigned depth = 0;  ///< nodes on the longest path from the root
 
     [[nodiscard]] TreeView view() const { return {nodes.data(), root, coarse}; }
     [[nodiscard]] std::size_t bytes() const { return nodes.bytes(); }

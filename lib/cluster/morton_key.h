@@ -1,0 +1,85 @@
+// Corners from the caller's memory, and the keys of triangles: their places on a lattice of 1024 cells along each axis,
+// in Z-order (Morton 1966).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <cluster/quad.h>
+#include <pierce/mesh_view.h>
+
+namespace pierce::detail {
+
+template <class Scalar>
+class CornerReader {
+  public:
+    explicit CornerReader(const MeshView<Scalar>& mesh) : mesh_(mesh), last_(mesh.positions.size() - 1) {}
+
+    /// Four numbers are read where one more vertex follows, never beyond the last.
+    [[nodiscard, gnu::always_inline]] Quad<Scalar> corner(std::uint32_t vertex) const {
+        const Scalar* from = mesh_.positions[vertex].data();
+        if (vertex == last_) return Quad<Scalar>{from[0], from[1], from[2], 0};
+        Quad<Scalar> quad;
+        std::memcpy(&quad, from, sizeof quad);
+        return quad;
+    }
+    [[nodiscard, gnu::always_inline]] QuadBox<Scalar> box(std::size_t triangle) const {
+        const IndexTriple& t = mesh_.triangles[triangle];
+        const Quad<Scalar> a = corner(t[0]), b = corner(t[1]), c = corner(t[2]);
+        return {least(a, least(b, c)), most(a, most(b, c))};
+    }
+    [[nodiscard]] const MeshView<Scalar>& mesh() const { return mesh_; }
+
+  private:
+    const MeshView<Scalar>& mesh_;
+    std::size_t last_;
+};
+
+/// The power of two that brings a positive number to [2^exponent, 2^(exponent + 1)), or as near as powers that are not
+/// subnormal can.
+template <class Scalar>
+[[nodiscard]] Scalar power_to_reach(int exponent, Scalar x) {
+    using Limits = std::numeric_limits<Scalar>;
+    return std::ldexp(Scalar(1),
+                      std::clamp(exponent - std::ilogb(x), Limits::min_exponent - 1, Limits::max_exponent - 1));
+}
+
+/// Half of a box's centre: neither the sum nor a difference of two of them overflows.
+template <class Scalar>
+[[gnu::always_inline]] inline Quad<Scalar> half_center(const QuadBox<Scalar>& box) {
+    return box.low * Scalar(0.25) + box.high * Scalar(0.25);
+}
+
+/// Cubic cells over all the half centres that there are.
+template <class Scalar>
+class KeyRaster {
+  public:
+    KeyRaster(Quad<Scalar> low, Quad<Scalar> high) : low_(low) {
+        const Scalar extent = largest_of<Scalar>(high - low);
+        flat_ = !(extent > 0);
+        if (flat_) return;
+        unit_ = power_to_reach(0, extent);
+        scale_ = Scalar(1023) / (extent * unit_);
+    }
+    [[nodiscard]] bool flat() const { return flat_; }  ///< all in one place
+
+    /// 30 bits. Rounding may move what lies at a cell's end to the next one: keys are a good order, no more.
+    [[nodiscard, gnu::always_inline]] std::uint32_t key(Quad<Scalar> half_center) const {
+        const Quad<Scalar> cell = (half_center - low_) * unit_ * scale_;
+        IntQuad x = __builtin_convertvector(least(most(cell, all_of<Scalar>(0)), all_of<Scalar>(1023)), IntQuad);
+        x = (x | x << 16) & 0x030000ff;
+        x = (x | x << 8) & 0x0300f00f;
+        x = (x | x << 4) & 0x030c30c3;
+        x = (x | x << 2) & 0x09249249;
+        return static_cast<std::uint32_t>(x[0] | x[1] << 1 | x[2] << 2);
+    }
+
+  private:
+    Quad<Scalar> low_;
+    Scalar unit_ = 1;
+    Scalar scale_ = 0;
+    bool flat_ = false;
+};
+
+}  // namespace pierce::detail
