@@ -32,11 +32,12 @@ struct GridCells {
     [[nodiscard]] double wall(std::size_t axis, int cell) const { return low[axis] + cell * size; }
 };
 
-/// Cells of one slab: all from `low` to `high` in both axes across the walk; none where a low one is above its high one.
+/// Cells of one slab: all from `low` to `high` in both axes across the walk. Where there are none, one end is beyond the grid.
 struct CellRectangle {
     int low[2];
     int high[2];
 };
+constexpr CellRectangle k_no_cells = {{GridCells::k_most_along, GridCells::k_most_along}, {-1, -1}};
 
 class GridWalk {
   public:
@@ -133,7 +134,8 @@ class GridWalk {
 // low end of the rectangles rises, and the high end rises, then falls; with slope < 0 the high end falls, and the low end falls, then rises.
 // In each case "the rectangle meets the range c.low..c.high in this axis" holds for slabs that follow one another: where an end rises then falls,
 // "high end >= c.low" holds in between, and so on. So do the slabs of the range itself. A box is therefore met in an interval of the walk, and it
-// is visited where it is met but was not in the slab before, in the least cell of rectangle and range. NaN in any number makes `near` 0,
+// is visited where it is met but was not in the slab before, in the least cell of rectangle and range. (A rectangle without cells meets no
+// range: x - m <= y + m, since y is below x by roundings at most, so it lacks cells only where an end is beyond the grid.) NaN in any number makes `near` 0,
 // `far` the end, or an end of all rectangles the outermost cell: all the walk long, so all of this holds.
 
 }  // namespace pierce::detail

@@ -45,7 +45,7 @@ class UniformGrid {
         const std::size_t a = walk.along;
         const std::size_t b = walk.across[0];
         const std::size_t c = walk.across[1];
-        CellRectangle before{{1, 1}, {0, 0}};
+        CellRectangle before = k_no_cells;
         CellRectangle now;
         for (; walk.next(now); before = now) {
             const int slab = walk.slab;
