@@ -31,9 +31,9 @@ using OddPoint = std::array<Odd, 3>;
 
 [[nodiscard]] inline OddPoint odd(const Point& p) { return {Odd(p[0]), Odd(p[1]), Odd(p[2])}; }
 
-/// Products of three doubles are multiples of 2^(-3 1074) below 2^(3 1024), and 24 of them below 2^5 more: 6299 bits, 99 limbs. What is
+/// Products of four doubles are multiples of 2^(-4 1074) below 2^(4 1024), and 512 of them below 2^9 more: 8401 bits, 132 limbs. What is
 /// added may write zeros into four more.
-inline constexpr std::size_t k_most_limbs = 104;
+inline constexpr std::size_t k_most_limbs = 136;
 
 /// A number > 0 or 0: its limbs times 2^exponent, neither end a zero limb. Exponents of numbers from one lattice and degree agree modulo 64.
 struct Magnitude {
@@ -81,9 +81,9 @@ struct Magnitude {
 
 class Accumulator {
   public:
-    /// For sums of at most 32 products of `degree` coordinates of the lattice.
+    /// For sums of at most 512 products of `degree` coordinates of the lattice.
     Accumulator(const Lattice& lattice, int degree)
-        : base_(degree * lattice.lowest), limbs_((degree * lattice.bits() + 5 + 63) / 64) {
+        : base_(degree * lattice.lowest), limbs_((degree * lattice.bits() + 9 + 63) / 64) {
         for (auto& part : part_) std::memset(part, 0, sizeof(std::uint64_t) * static_cast<std::size_t>(limbs_ + 4));
     }
 

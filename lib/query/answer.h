@@ -4,20 +4,11 @@
 #include <optional>
 
 #include <query/collectors.h>
+#include <query/place.h>
 #include <query/report.h>
 #include <query/traverse.h>
 
 namespace pierce::detail {
-
-/// How far a point of the path may be off in each coordinate when it is rounded to the scalar: computed in double it is within 2^-50 of
-/// the largest coordinate of the exact one; rounded it moves by at most half a unit of that, or by half of the least denormal number,
-/// which is half a unit of the least normal one.
-template <class Scalar>
-[[nodiscard]] double rounding(const Path& path) {
-    double furthest = static_cast<double>(std::numeric_limits<Scalar>::min());
-    for (std::size_t k = 0; k < 3; ++k) furthest = std::max({furthest, std::abs(path.from[k]), std::abs(path.to[k])});
-    return furthest * (0x1p-50 + 0.5 * static_cast<double>(std::numeric_limits<Scalar>::epsilon()));
-}
 
 /// Writes the hit of a candidate, to where the caller wants it: a copy of what was just written number by number would wait for memory.
 /// `passed(triangle)` says which triangles are hit strictly before it, and so on the way to any point near it. With a complete
@@ -30,15 +21,14 @@ void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candi
     typename Kernel::template Face<Scalar> face(corners, counters);
     const Point normal = face.normal();
     const std::uint32_t number = scene.number_of(triangle);
-    report(face.measures(path, candidate.decision), normal, candidate.decision, scene.face_of_number(number), number, hit);
+    const Measures measures = face.measures(path, candidate.decision);
+    report(measures, normal, candidate.decision, scene.face_of_number(number), number, hit);
     QueryOptions whole = options;
     whole.max_fraction = 1;  // a nearer limit was meant for the caller's own segment
-    const bool listed = list != nullptr && list->complete && rounding<Scalar>(path) <= scene.near_bound;
-    const auto side = [&](const Point& point) { return face.side(point); };
-    const auto clear = [&](const Point& point) {
+    const auto clear = [&](const Point& point, bool near) {
         const Path way{path.from, point};
-        Any any(passed, triangle);  // verify() has seen to the hit's own triangle
-        if (listed) {
+        Any any(passed, triangle);  // place() has seen to the hit's own triangle
+        if (near && list != nullptr && list->complete) {
             for (unsigned i = 0; i < list->count && !any.found(); ++i)
                 test_triangle<Kernel>(scene, way, list->triangles[i], whole, counters, any);
         } else {
@@ -46,7 +36,7 @@ void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candi
         }
         return !any.found();
     };
-    const int tries = verify(hit, path, normal, options.sides, side, clear);
+    const int tries = place<Scalar>(path, corners, candidate.decision, scene.grain, measures.fraction, face, counters, clear, hit);
     counters.retreats += static_cast<std::uint64_t>(tries);
 }
 

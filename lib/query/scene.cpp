@@ -13,6 +13,7 @@
 #include <environment.h>
 #include <exact/decide.h>
 #include <mesh/check_mesh.h>
+#include <query/place.h>
 #include <tree/make_tree.h>
 
 namespace pierce::detail {
@@ -87,10 +88,8 @@ Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& optio
     for (std::size_t i = 0; i < built.boxes.size(); ++i) scene.cluster_refs[i] = built.boxes[i].ref;
     if (!scene.empty()) {
         for (std::size_t k = 0; k < 3; ++k) scene.bounds.low[k] = built.low[k], scene.bounds.high[k] = built.high[k];
-        constexpr auto epsilon = static_cast<double>(std::numeric_limits<Scalar>::epsilon());
-        constexpr auto least = static_cast<double>(std::numeric_limits<Scalar>::denorm_min());
-        // Twelve units in the last place of the largest coordinate: an epsilon of it is one unit or two.
-        scene.near_bound = 12 * std::max(built.largest * epsilon, least);
+        scene.grain = grain_of<Scalar>(static_cast<double>(built.largest));
+        scene.near_bound = near_margin(scene.grain);
         scene.frame.unit = built.unit;
         scene.frame.noise = std::max(scene.near_bound * built.unit, std::numeric_limits<double>::min());
         scene.tree = make_tree(std::span(built.boxes.data(), built.boxes.size()), scene.clusters.empty, scene.frame, executor);

@@ -49,6 +49,8 @@ struct Scene {
     const Backend* backend = nullptr;
     /// How far from the segment, in each coordinate, a hit's point may be looked for. Frame::noise is the same in scene units.
     double near_bound = 0;
+    /// How far from a face's plane a point keeps (place.h).
+    double grain = 0;
     std::size_t face_count = 0;
     std::size_t vertex_count = 0;
 

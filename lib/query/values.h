@@ -8,7 +8,7 @@
 #include <exact/decide.h>
 #include <exact/fraction.h>
 #include <exact/planes.h>
-#include <kernel/plane.h>
+#include <kernel/spot.h>
 #include <pierce/options.h>
 
 namespace pierce::detail {
@@ -20,6 +20,12 @@ template <class Number>
     const auto share = [&](const Number& w) { return std::clamp(over_s(w), 0.0, 1.0); };
     return {over_s(meeting.v), {share(meeting.w.x), share(meeting.w.y), share(meeting.w.z)}};
 }
+
+/// What could be said of a hit's place without exact arithmetic.
+struct Located {
+    bool spot = false;     ///< near enough to choose a place from
+    bool rounded = false;  ///< and the true point is correctly rounded
+};
 
 /// `Scalar`: what the values will be rounded to.
 template <class Scalar>
@@ -54,13 +60,15 @@ class CertifiedFace {
         return measure(path, corners_);
     }
 
-    /// The side of the plane that a point is on: as side_of.
-    [[nodiscard]] int side(const Point& point) {
-        int side = plane_.side(point);
-        if (k_coarse && side == plane_.doubtful) side = finer().side(point);
-        if (side != plane_.doubtful) return side;
-        ++counters_.exact_sides;
-        return side_of(corners_, point);
+    /// The true point of a hit, within a sixteenth of `unit` in each coordinate, and correctly rounded.
+    [[nodiscard]] Located locate(const Path& path, double unit, Spot& spot, Point& position) {
+        Located located = located_by(plane_, path, unit, spot, position);
+        if (k_coarse && !located.rounded) {
+            Spot closer;
+            const Located by_finer = located_by(finer(), path, unit, closer, position);
+            if (by_finer.spot) spot = closer, located = by_finer;
+        }
+        return located;
     }
 
     static constexpr bool k_coarse = std::is_same_v<Scalar, float>;
@@ -68,6 +76,13 @@ class CertifiedFace {
     static constexpr double k_tolerance = k_coarse ? 0x1p-29 : 0x1p-58;
 
   private:
+    template <class Number>
+    static Located located_by(const Plane<Number>& plane, const Path& path, double unit, Spot& spot, Point& position) {
+        if (!find_spot(plane, Meeting(plane, path), path, spot)) return {};
+        if (!(std::max({spot.error[0], spot.error[1], spot.error[2]}) <= unit / 16)) return {};
+        return {true, round_position<Scalar>(spot, position)};
+    }
+
     static Point point(const Triple<double>& p) { return {p.x, p.y, p.z}; }
 
     [[nodiscard]] const Plane<DoubleDouble>& finer() {

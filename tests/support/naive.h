@@ -10,6 +10,7 @@
 #include <pierce/hit.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
+#include <query/place.h>
 #include <query/report.h>
 #include <query/values.h>
 
@@ -19,12 +20,17 @@ template <class Scalar>
 class NaiveMesh {
   public:
     explicit NaiveMesh(const MeshView<Scalar>& mesh) {
+        double largest = 0;
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
             detail::Corners corners;
             for (std::size_t k = 0; k < 3; ++k) corners[k] = detail::to_point(mesh.positions[mesh.triangles[i][k]]);
+            if (!detail::has_zero_area(corners))
+                for (const detail::Point& p : corners)
+                    for (const double x : p) largest = std::max(largest, std::abs(x));
             corners_.push_back(corners);
             faces_.push_back(mesh.face_of(i));
         }
+        grain_ = detail::grain_of<Scalar>(largest);
     }
 
     [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Segment<Scalar>& segment,
@@ -109,10 +115,11 @@ class NaiveMesh {
         detail::CertifiedFace<Scalar> face(corners_[triangle], unused);
         const detail::Point normal = face.normal();
         Hit<Scalar> hit{};
-        detail::report(face.measures(path, found[i].decision), normal, found[i].decision, faces_[triangle], triangle, hit);
+        const detail::Measures measures = face.measures(path, found[i].decision);
+        detail::report(measures, normal, found[i].decision, faces_[triangle], triangle, hit);
         QueryOptions whole = options;
         whole.max_fraction = 1;
-        const auto clear = [&](const detail::Point& point) {
+        const auto clear = [&](const detail::Point& point, bool) {
             for (const Found& other : hits({path.from, point}, whole)) {
                 const auto before = [&](const Found& f) {
                     return f.triangle == other.triangle && order(path, f.triangle, triangle) < 0;
@@ -121,13 +128,13 @@ class NaiveMesh {
             }
             return true;
         };
-        const auto side = [&](const detail::Point& point) { return detail::side_of(corners_[triangle], point); };
-        detail::verify(hit, path, normal, options.sides, side, clear);
+        detail::place<Scalar>(path, corners_[triangle], found[i].decision, grain_, measures.fraction, face, unused, clear, hit);
         return hit;
     }
 
     std::vector<detail::Corners> corners_;
     std::vector<std::uint32_t> faces_;
+    double grain_ = 0;
 };
 
 }  // namespace pierce::test
