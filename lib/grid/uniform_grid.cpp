@@ -14,8 +14,10 @@ namespace {
 constexpr double k_cell = 1.5;
 constexpr double k_enlarge = 1.25;
 constexpr std::size_t k_some = 4096;  ///< clusters that are looked at for the median
-constexpr double k_finest = 65000; ///< cells along the longest axis, so that rounding keeps them below GridCells::k_most_along
-constexpr double k_flat = 0x1p-30; ///< a scene no wider than this is one cell, so that sizes stay 2^-47 or more (grid_walk.h)
+/// Cells along the longest axis: rounding keeps them below GridCells::k_most_along.
+constexpr double k_finest = 65000;
+/// A scene no wider than this is one cell: sizes stay 2^-47 or more (grid_walk.h).
+constexpr double k_flat = 0x1p-30;
 constexpr std::size_t k_most_bytes = std::size_t{1} << 33;  ///< so that places of references fit 32 bits
 
 using Place = std::atomic_ref<std::uint32_t>;
@@ -82,14 +84,16 @@ GridCells cells_of(const Extent& extent, double size) {
 }
 
 double count_of(const GridCells& cells) {
-    return static_cast<double>(cells.count[0]) * static_cast<double>(cells.count[1]) * static_cast<double>(cells.count[2]);
+    double count = 1;
+    for (const int along : cells.count) count *= along;
+    return count;
 }
 
 }  // namespace
 
 template <class Scalar>
-UniformGrid UniformGrid::make(std::span<const ClusterBox<Scalar>> boxes, const Frame& frame, double cell_size, std::size_t most_bytes,
-                              const Executor& executor) {
+UniformGrid UniformGrid::make(std::span<const ClusterBox<Scalar>> boxes, const Frame& frame, double cell_size,
+                              std::size_t most_bytes, const Executor& executor) {
     UniformGrid grid;
     if (boxes.empty()) return grid;
     if (most_bytes == 0) most_bytes = std::max(k_least_bytes, k_bytes * boxes.size());
@@ -153,8 +157,8 @@ void UniformGrid::each_cell(const Listed& x, Visit&& visit) {
             for (std::size_t i = x.low[0]; i <= x.high[0]; ++i) visit(starts_[(z * rows + y) * columns + i]);
 }
 
-// Counts, then ends of each cell's references, then places given out from the end: what is left are the starts. Threads find their places in
-// any order, so each cell is sorted.
+// Counts, then ends of each cell's references, then places given out from the end: what is left are the starts. Threads
+// find their places in any order, so each cell is sorted.
 void UniformGrid::fill(const Executor& executor) {
     std::fill(starts_.begin(), starts_.end(), 0U);
     each_chunk(executor, listed_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -179,7 +183,9 @@ void UniformGrid::fill(const Executor& executor) {
     });
 }
 
-template UniformGrid UniformGrid::make(std::span<const ClusterBox<float>>, const Frame&, double, std::size_t, const Executor&);
-template UniformGrid UniformGrid::make(std::span<const ClusterBox<double>>, const Frame&, double, std::size_t, const Executor&);
+template UniformGrid UniformGrid::make(std::span<const ClusterBox<float>>, const Frame&, double, std::size_t,
+                                       const Executor&);
+template UniformGrid UniformGrid::make(std::span<const ClusterBox<double>>, const Frame&, double, std::size_t,
+                                       const Executor&);
 
 }  // namespace pierce::detail

@@ -1,4 +1,5 @@
-// The second broadphase: one uniform grid whose cells list clusters, for whoever wants the simple thing and for the tests' second opinion.
+// The second broadphase: one uniform grid whose cells list clusters, for whoever wants the simple thing and for the
+// tests' second opinion.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +18,12 @@ class UniformGrid {
   public:
     UniformGrid() = default;
 
-    /// `cell_size` in scene units; 0: a small multiple of the median cluster's. `most_bytes` is kept by larger cells, down to what one cell for all
-    /// needs (20 bytes a cluster); 0: `k_bytes` a cluster. The same grid for any executor.
+    /// `cell_size` in scene units; 0: a small multiple of the median cluster's. `most_bytes` is kept by larger cells,
+    /// down to what one cell for all needs (20 bytes a cluster); 0: `k_bytes` a cluster, `k_least_bytes` at least. The
+    /// same grid for any executor.
     template <class Scalar>
-    static UniformGrid make(std::span<const ClusterBox<Scalar>> boxes, const Frame& frame, double cell_size, std::size_t most_bytes,
-                            const Executor& executor);
+    static UniformGrid make(std::span<const ClusterBox<Scalar>> boxes, const Frame& frame, double cell_size,
+                            std::size_t most_bytes, const Executor& executor);
 
     static constexpr std::size_t k_bytes = 48;
     static constexpr std::size_t k_least_bytes = 65536;
@@ -31,17 +33,19 @@ class UniformGrid {
     [[nodiscard]] std::size_t cell_count() const { return starts_.empty() ? 0 : starts_.size() - 1; }
     [[nodiscard]] std::size_t reference_count() const { return references_.size(); }
 
-    /// Calls `visit(ClusterRef, double limit)`, which returns the new limit, once for each cluster whose box comes within `noise`, in each
-    /// coordinate, of a point origin + t * direction, 0 <= t <= limit <= 1; and for some others, in cells near by. Roughly the nearest first; ends
-    /// when the limit is below 0. Relative to Frame::low. A limit that is NaN, or above the one before (1 at first), changes nothing.
+    /// Calls `visit(ClusterRef, double limit)`, which returns the new limit, once for each cluster whose box comes
+    /// within `noise`, in each coordinate, of a point origin + t * direction, 0 <= t <= limit <= 1, relative to
+    /// Frame::low; and at most once for some others, in cells near by. Roughly the nearest first; ends when the limit
+    /// is below 0. A limit that is NaN, or above the one before (1 at first), changes nothing.
     template <class Visit>
     void visit(const double origin[3], const double direction[3], double noise, double limit, std::uint64_t& cells,
                Visit&& visit) const {
         if (starts_.empty() || limit < 0) return;
         if (!(limit <= 1)) limit = 1;
         GridWalk walk(cells_, origin, direction, noise, limit);
-        const std::size_t strides[3] = {1, static_cast<std::size_t>(cells_.count[0]),
-                                        static_cast<std::size_t>(cells_.count[0]) * static_cast<std::size_t>(cells_.count[1])};
+        const std::size_t strides[3] = {
+            1, static_cast<std::size_t>(cells_.count[0]),
+            static_cast<std::size_t>(cells_.count[0]) * static_cast<std::size_t>(cells_.count[1])};
         const std::size_t a = walk.along;
         const std::size_t b = walk.across[0];
         const std::size_t c = walk.across[1];
@@ -51,12 +55,13 @@ class UniformGrid {
             const int slab = walk.slab;
             const int slab_before = slab - walk.step();
             const auto met_before = [&](const Listed& x) {
-                return x.low[a] <= slab_before && x.high[a] >= slab_before && before.low[0] <= x.high[b] && before.high[0] >= x.low[b] &&
-                       before.low[1] <= x.high[c] && before.high[1] >= x.low[c];
+                return x.low[a] <= slab_before && x.high[a] >= slab_before && before.low[0] <= x.high[b] &&
+                       before.high[0] >= x.low[b] && before.low[1] <= x.high[c] && before.high[1] >= x.low[c];
             };
             for (int j = now.low[1]; j <= now.high[1]; ++j) {
                 for (int i = now.low[0]; i <= now.high[0]; ++i) {
-                    const std::size_t cell = strides[a] * static_cast<std::size_t>(slab) + strides[b] * static_cast<std::size_t>(i) +
+                    const std::size_t cell = strides[a] * static_cast<std::size_t>(slab) +
+                                             strides[b] * static_cast<std::size_t>(i) +
                                              strides[c] * static_cast<std::size_t>(j);
                     ++cells;
                     for (std::uint32_t k = starts_[cell]; k < starts_[cell + 1]; ++k) {
