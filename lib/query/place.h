@@ -33,7 +33,7 @@ template <class Scalar>
 [[nodiscard]] double grain_of(double largest) {
     return k_grain_units * last_place<Scalar>(largest);
 }
-/// How far from the true intersection in each coordinate a point may be that `clear(point, true)` is asked about.
+/// How far from the true intersection a point may be that `clear(point, true)` is asked about.
 [[nodiscard]] constexpr double near_margin(double grain) { return grain * (1 + 8 / k_grain_units); }
 
 template <class Scalar>
@@ -100,19 +100,21 @@ class PlaceSearch {
     bool find_near(Hit<Scalar>& hit) {
         const Point none{};
         if (try_near(none, false, hit) || try_near(none, true, hit)) return true;
-        // Away from other faces: back to the start, then in 26 directions. Never towards the plane, and never more than 5 units: the roundings take up to 3 more.
+        // Away from other faces: back to the start, then in 26 directions. Never towards the plane.
         Point back{};
         double most = 0;
         for (std::size_t k = 0; k < 3; ++k) back[k] = path_.from[k] / 2 - path_.to[k] / 2, most = std::max(most, std::abs(back[k]));
         for (double& x : back) x /= most;
         if (try_moved(back, 2, hit) || try_moved(back, 5, hit)) return true;
-        for (const double by : {1.5, 4.5})
-            for (int x = -1; x <= 1; ++x)
-                for (int y = -1; y <= 1; ++y)
-                    for (int z = -1; z <= 1; ++z) {
-                        const Point direction = {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
-                        if ((x != 0 || y != 0 || z != 0) && try_moved(direction, by, hit)) return true;
-                    }
+        // First the 26 to the neighbours, then the 72 that lie between those: some corners leave no more than a sliver.
+        for (const int finest : {1, 2})
+            for (const double by : {1.5, 3.5, 6.5, 9.0})
+                for (int x = -finest; x <= finest; ++x)
+                    for (int y = -finest; y <= finest; ++y)
+                        for (int z = -finest; z <= finest; ++z) {
+                            if (std::max({std::abs(x), std::abs(y), std::abs(z)}) != finest || (x % 2 == 0 && y % 2 == 0 && z % 2 == 0)) continue;
+                            if (try_moved({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}, by, hit)) return true;
+                        }
         return false;
     }
 
@@ -123,21 +125,24 @@ class PlaceSearch {
         in = std::min(in, 0.0);
         Point moved{};
         for (std::size_t k = 0; k < 3; ++k) moved[k] = by * unit_ * (direction[k] / length - in * unit_normal_[k]);
-        return try_near(moved, false, hit) || try_near(moved, true, hit);
+        return try_near(moved, true, hit);
     }
 
     // The true point, moved off the plane and by `moved`.
     bool try_near(const Point& moved, bool outwards, Hit<Scalar>& hit) {
+        double square = 0;  // of the distance from the true point, in units
         Point by{};
         for (std::size_t k = 0; k < 3; ++k) by[k] = low_[k] + (off_[k] + moved[k]);
         Point point = rounded_to<Scalar>({high_[0] + by[0], high_[1] + by[1], high_[2] + by[2]});
         for (std::size_t k = 0; k < 3; ++k) {
             const double beyond = (point[k] - high_[k]) - by[k];
             if (outwards && ((beyond < 0 && out_[k] > 0) || (beyond > 0 && out_[k] < 0))) point[k] = next_to<Scalar>(point[k], out_[k]);
-            // One unit for what the true point may be off. (False for what is not finite.)
-            if (!(std::abs((point[k] - high_[k]) - low_[k]) <= near_margin(grain_) - unit_)) return false;
+            const double x = ((point[k] - high_[k]) - low_[k]) / unit_;
+            square += x * x;
         }
-        return take(point, true, hit);
+        // One unit for what the true point may be off. (False for what is not finite.)
+        constexpr double k_most = k_grain_units + 8 - 1;
+        return square <= k_most * k_most && take(point, true, hit);
     }
 
     void find_back(double below, Hit<Scalar>& hit) {
