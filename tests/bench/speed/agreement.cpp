@@ -25,7 +25,7 @@ Column* find(const Columns& columns, std::string_view name) {
 
 void Agreement::compare(std::string_view mesh, std::string_view set, const Columns& columns, std::size_t count,
                         double seconds) {
-    Column& pierce = *find(columns, column::pierce_both);
+    Column& pierce = *find(columns, column::pierce);
     Column& embree = *find(columns, column::embree);
     Column* cgal = find(columns, column::cgal_any);
     Row row{.place = std::string(mesh) + '/' + std::string(set), .at_ends = {}, .embree = {}, .cgal = {}, .hits = {}};
@@ -61,7 +61,8 @@ bool Agreement::report() const {
            "fraction by more "
            "than 0.001; hits that either sees within 0.001 of an end are set aside, as rules and rounding decide there "
            "(at an end). CGAL "
-           "differs: do_intersect, without triangles whose plane the segment ends on, which is pierce's rule.\n\n";
+           "differs: of the triangles that the segment meets, whether any has its ends on different sides, where "
+           "on the plane counts as in front, which is pierce's rule.\n\n";
     table.print(std::cout);
     std::cout << "Embree differs in " << embree.part << " of " << embree.whole
               << " answers; tolerated: 1 of 1000. CGAL differs in " << cgal.part << " of " << cgal.whole

@@ -1,4 +1,4 @@
-// Whether pierce and its peers answer the same, before time is taken of them: who answers something else is not to be compared.
+// Whether pierce and its peers answer the same, before time is taken of them: else they are not to be compared.
 #pragma once
 
 #include <string_view>
@@ -14,8 +14,8 @@ class Agreement {
     /// What Embree, which is not exact, may differ in from pierce; CGAL may not at all.
     static constexpr double k_tolerated = 1e-3;
 
-    /// Compares `count` answers of pierce for both sides with those of Embree and, if they are among the columns, of CGAL,
-    /// and stops after `seconds`.
+    /// Compares `count` answers of pierce with those of Embree and, if they are among the columns, of CGAL, and
+    /// stops after `seconds`.
     void compare(std::string_view mesh, std::string_view set, const Columns& columns, std::size_t count,
                  double seconds);
 

@@ -1,4 +1,4 @@
-// What is asked: real meshes, those of ../shared/meshes where there are any and of Debian's libcgal-demo, and bumpy spheres.
+// What is asked: real meshes, of ../shared/meshes where there are any and of libcgal-demo, and bumpy spheres.
 #pragma once
 
 #include <string>

@@ -1,27 +1,35 @@
 #include "builds.h"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <fstream>
-#include <iostream>
-#include <stdexcept>
+#include <malloc.h>
 
 #include "../embree_scene.h"
-#include "threads.h"
+#include "broadphase.h"
 #include "segment_sets.h"
+#include "threads.h"
 
 namespace pierce::bench {
 namespace {
 
-bool embree_hits(const EmbreeScene& scene, const Segment<float>& segment) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit ray;
-    set_ray(ray, segment.from, segment.to - segment.from);
-    rtcIntersect1(scene.get(), &context, &ray);
-    return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+/// Large blocks come from the system and go back to it: glibc's values for a new program, which it would otherwise adapt.
+void use_fresh_memory() {
+    constexpr int k_large = 128 * 1024;
+    mallopt(M_MMAP_MAX, 65536);
+    mallopt(M_MMAP_THRESHOLD, k_large);
+    mallopt(M_TRIM_THRESHOLD, k_large);
+    malloc_trim(0);
 }
+
+/// As long as it lives, malloc returns nothing to the system, large blocks included: the next build finds its pages.
+class KeptMemory {
+  public:
+    KeptMemory() {
+        mallopt(M_MMAP_MAX, 0);
+        mallopt(M_TRIM_THRESHOLD, -1);
+    }
+    ~KeptMemory() { use_fresh_memory(); }
+    KeptMemory(const KeptMemory&) = delete;
+    KeptMemory& operator=(const KeptMemory&) = delete;
+};
 
 struct Milliseconds {
     double process;
@@ -36,70 +44,91 @@ Milliseconds time_of(Work&& work) {
     return {1e3 * (seconds_now(Clock::process) - process), 1e3 * (seconds_now(Clock::wall) - wall)};
 }
 
-std::size_t g_hits = 0;
+/// Each build is timed to its first answer. What was built before is taken down outside of the time, or outlives it.
+class Builder {
+  public:
+    explicit Builder(const MeshView<float>& view)
+        : view_(view), segment_(make_segments(SegmentSet::medium, view, 1)[0]) {}
 
-constexpr EmbreeOptions k_low = {.quality = RTC_BUILD_QUALITY_LOW};
-constexpr EmbreeOptions k_high = {.quality = RTC_BUILD_QUALITY_HIGH};
+    Milliseconds ours(const BuildOptions& options) {
+        built_.reset();
+        return time_of([&] {
+            built_.emplace(view_, options);
+            hits_ += built_->first_hit(segment_) ? 1U : 0U;
+        });
+    }
+
+    // If Embree used more than the one thread that it may, the time of the process would say so.
+    double embree(std::optional<EmbreeScene>& scene, RTCBuildQuality quality) {
+        return time_of([&] {
+                   scene.emplace(device_, view_, EmbreeOptions{.quality = quality});
+                   ask(*scene);
+               })
+            .process;
+    }
+
+    double embree_again(const EmbreeScene& scene) {
+        return time_of([&] {
+                   scene.rebuild();
+                   ask(scene);
+               })
+            .process;
+    }
+
+  private:
+    void ask(const EmbreeScene& scene) {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRayHit ray;
+        set_ray(ray, segment_.from, segment_.to - segment_.from);
+        rtcIntersect1(scene.get(), &context, &ray);
+        hits_ += ray.hit.geomID != RTC_INVALID_GEOMETRY_ID ? 1U : 0U;
+    }
+
+    MeshView<float> view_;
+    Segment<float> segment_;
+    EmbreeDevice device_{"threads=1"};
+    std::optional<CollisionMesh<float>> built_;
+    std::size_t hits_ = 0;
+};
 
 }  // namespace
 
 void measure_builds(const std::string& mesh, const MeshView<float>& view, int repetitions, Results& results) {
-    const Segment<float> segment = make_segments(SegmentSet::medium, view, 1)[0];
-    // The objects outlive the measurement: to take them down is not part of a build.
-    std::optional<CollisionMesh<float>> ours;
-    const Threads one(1);
-    const auto build_ours = [&](const Threads& threads) {
-        ours.reset();
-        return time_of([&] {
-            ours.emplace(build(view, threads));
-            g_hits += ours->first_hit(segment) ? 1U : 0U;
-        });
-    };
     const auto add = [&](std::string_view set, std::string_view column, double ms) {
         results.add(mesh, set, column, ms);
     };
-    const EmbreeDevice device("threads=1");
-    // If Embree used more than the one thread that it may, the time of the process would say so.
-    const auto build_embree = [&](std::optional<EmbreeScene>& scene, const EmbreeOptions& options) {
-        return time_of([&] {
-                   scene.emplace(device, view, options);
-                   g_hits += embree_hits(*scene, segment) ? 1U : 0U;
-               })
-            .process;
-    };
+    Builder builder(view);
+    use_fresh_memory();
     for (int r = 0; r < repetitions; ++r) {
-        const Milliseconds alone = build_ours(one);
-        add(set_name::build, column::pierce, alone.process);
-        add(set_name::thread_build, column::pierce, alone.wall);
+        add(set_name::build_fresh, column::pierce, builder.ours({}).process);
+        std::optional<EmbreeScene> low;
+        add(set_name::build_fresh, column::embree_low, builder.embree(low, RTC_BUILD_QUALITY_LOW));
+    }
+
+    const KeptMemory kept;
+    const auto grid = grid_options();
+    std::optional<EmbreeScene> low;
+    std::optional<EmbreeScene> high;
+    builder.embree(low, RTC_BUILD_QUALITY_LOW);
+    builder.embree(high, RTC_BUILD_QUALITY_HIGH);
+    for (int r = -1; r < repetitions; ++r) {  // the first round only fetches the memory
+        const Milliseconds alone = builder.ours({});
+        double on_two = 0;
         {
             const Threads two(2);  // gone before Embree's turn, as threads that look for work take time of the process
-            add(set_name::thread_build, column::pierce_two_threads, build_ours(two).wall);
+            on_two = builder.ours({.executor = Executor(two)}).wall;
         }
-        std::optional<EmbreeScene> low;
-        add(set_name::build, column::embree_low, build_embree(low, k_low));
-        add(set_name::build, column::embree_low_again, time_of([&] {
-                                                           low->rebuild();
-                                                           g_hits += embree_hits(*low, segment) ? 1U : 0U;
-                                                       }).process);
-        if (r > 0) continue;  // slow, and for the table only
-        std::optional<EmbreeScene> high;
-        add(set_name::build, column::embree, build_embree(high, k_high));
+        const double in_grid = grid ? builder.ours(*grid).process : 0;
+        const double embree_low = builder.embree_again(*low);
+        if (r < 0) continue;
+        add(set_name::build, column::pierce, alone.process);
+        add(set_name::thread_build, column::pierce, alone.wall);
+        add(set_name::thread_build, column::pierce_two_threads, on_two);
+        if (grid) add(set_name::build, column::grid, in_grid);
+        add(set_name::build, column::embree_low, embree_low);
+        if (r == 0) add(set_name::build, column::embree, builder.embree_again(*high));  // slow: once is enough
     }
-}
-
-void measure_memory(const std::string& mesh, const MeshView<float>& view, Results& results) {
-    const auto faces = static_cast<double>(view.triangles.size());
-    const auto add = [&](std::string_view column, std::size_t bytes) {
-        results.add(mesh, set_name::memory, column, static_cast<double>(bytes) / faces);
-    };
-    add(column::pierce, CollisionMesh<float>(view).statistics().bytes);
-    const auto embree_bytes = [&](const EmbreeOptions& options) {
-        const EmbreeDevice device("threads=1");
-        const EmbreeScene scene(device, view, options);
-        return device.bytes();  // its monitor counts the buffers of vertices and indices, too
-    };
-    add(column::embree, embree_bytes(k_high));
-    add(column::embree_low, embree_bytes(k_low));
 }
 
 void measure_threads(const std::string& mesh, const MeshView<float>& view, const Effort& effort, Results& results) {
@@ -114,38 +143,6 @@ void measure_threads(const std::string& mesh, const MeshView<float>& view, const
     longer.seconds *= 4;  // what starts threads takes its time, and other programs want the processors, too
     measure(both, longer, Clock::wall,
             [&](std::string_view column, double ns) { results.add(mesh, set_name::threads, column, ns); });
-}
-
-void measure_peak(const BenchMesh& mesh) {
-    std::cout.flush();
-    const pid_t child = fork();
-    if (child < 0) throw std::runtime_error("can't fork");
-    if (child > 0) {
-        int status = 0;
-        waitpid(child, &status, 0);
-        if (status != 0) throw std::runtime_error(mesh.name + " could not be built in a process of its own");
-        return;
-    }
-    int status = 1;
-    try {
-        const TriangleSoup<float> soup = mesh.load();
-        const auto segments = make_segments(SegmentSet::short_1, soup.view(), 10'000);
-        std::ofstream("/proc/self/clear_refs") << "5\n";  // from here on the peak is that of the build
-        const CollisionMesh<float> ours(soup.view());
-        std::size_t hits = 0;
-        for (const Segment<float>& s : segments) hits += ours.first_hit(s) ? 1U : 0U;
-        std::ifstream in("/proc/self/status");
-        for (std::string line; std::getline(in, line);)
-            if (line.starts_with("VmHWM:"))
-                std::cout << mesh.name << ": " << soup.triangles.size() << " faces, " << hits
-                          << " of 10,000 short segments hit; most memory held from the build on, with the mesh itself: "
-                          << line.substr(6) << '\n';
-        std::cout.flush();
-        status = 0;
-    } catch (const std::exception& error) {
-        std::cerr << mesh.name << ": " << error.what() << '\n';
-    }
-    _exit(status);  // what the parent left to be done at the end is not the child's
 }
 
 }  // namespace pierce::bench

@@ -38,13 +38,16 @@ class Column {
 
 using Columns = std::vector<std::unique_ptr<Column>>;
 
-/// Names, as they stand in tables. What each calls is said in `columns_text`.
+/// Names, as they stand in tables. What each calls is said in `k_columns_text`.
 namespace column {
 inline constexpr std::string_view pierce = "pierce";
 inline constexpr std::string_view pierce_batch = "pierce batch";
 inline constexpr std::string_view pierce_any = "pierce any";
 inline constexpr std::string_view pierce_any_batch = "pierce any batch";
-inline constexpr std::string_view pierce_both = "pierce both";
+inline constexpr std::string_view fronts = "fronts";
+inline constexpr std::string_view fronts_batch = "fronts batch";
+inline constexpr std::string_view grid = "grid";
+inline constexpr std::string_view grid_batch = "grid batch";
 inline constexpr std::string_view pierce_double = "pierce double";
 inline constexpr std::string_view pierce_double_batch = "double batch";
 inline constexpr std::string_view pierce_two_threads = "two threads";
@@ -53,23 +56,24 @@ inline constexpr std::string_view embree_any = "Embree any";
 inline constexpr std::string_view embree_stream = "Embree 1M";
 inline constexpr std::string_view embree_robust = "Embree robust";
 inline constexpr std::string_view embree_low = "Embree low";
-inline constexpr std::string_view embree_low_again = "Embree low, again";
 inline constexpr std::string_view bullet = "Bullet";
 inline constexpr std::string_view cgal_any = "CGAL any";
 inline constexpr std::string_view cgal_first = "CGAL first";
 }  // namespace column
 
 inline constexpr std::string_view k_columns_text =
-    R"(- **pierce**: `first_hit` for fronts, in float; both: `Sides::both`; any: `any_hit`; batch: `first_hits` and `any_hits`, one
-  thread; double: the same floats as doubles.
-- **Embree**: `rtcIntersect1` from 0 to 1 along `to - from`, high quality, not robust, incoherent, one thread, denormals flushed
-  as its manual advises; both sides count. any: `rtcOccluded1`; 1M: `rtcIntersect1M` for 256 rays at a time; robust:
-  high quality and `RTC_SCENE_FLAG_ROBUST`; low: low quality.
-- **Bullet**: `performRaycast` of a `btBvhTriangleMeshShape`, with a `btTriangleRaycastCallback` that filters backs.
-- **CGAL**: `AABB_tree`, exact predicates and inexact constructions, in double; any: `do_intersect`; first: the nearest of
-  `all_intersections`, as it has no first hit of a segment. Both sides count.
+    R"(Both sides of a face count in every column but that of the fronts.
 
-Segments are in each library's own form before time is taken: peers are charged for nothing but the call and reading its result.
+- **pierce**: `first_hit` in float; any: `any_hit`; batch: `first_hits` and `any_hits`, one thread; fronts:
+  `Sides::front`; grid: the uniform grid as the broadphase; double: the same floats as doubles.
+- **Embree**: `rtcIntersect1` from 0 to 1 along `to - from`, high quality, not robust, incoherent, one thread, denormals
+  flushed as its manual advises. any: `rtcOccluded1`; 1M: `rtcIntersect1M` for 256 rays at a time; robust: high quality
+  and `RTC_SCENE_FLAG_ROBUST`; low: low quality.
+- **Bullet**: `performRaycast` of a `btBvhTriangleMeshShape` with a `btTriangleRaycastCallback`.
+- **CGAL**: `AABB_tree`, exact predicates and inexact constructions, in double; any: `do_intersect`; first: the nearest
+  of `all_intersections`, as it has no first hit of a segment.
+
+Segments are in each library's own form before time is taken: peers are charged for the call and reading its result.
 )";
 
 template <class Scalar>
@@ -77,6 +81,9 @@ using SharedMesh = std::shared_ptr<const CollisionMesh<Scalar>>;
 
 template <class Scalar>
 void add_pierce_columns(Columns& columns, const SharedMesh<Scalar>& mesh);
+/// Nothing, as long as the library has no such broadphase.
+void add_grid_columns(Columns& columns, const MeshView<float>& mesh);
+/// `first_hits` for both sides.
 std::unique_ptr<Column> pierce_batch_column(std::string_view name, const SharedMesh<float>& mesh, unsigned threads);
 
 /// The robust and the low scene are built only if `all` is set.

@@ -6,8 +6,7 @@ namespace {
 
 /// Takes the nearest hit, as Bullet's own callbacks do: each later one has to be nearer than what is returned.
 struct Nearest : btTriangleRaycastCallback {
-    Nearest(const btVector3& from, const btVector3& to)
-        : btTriangleRaycastCallback(from, to, btTriangleRaycastCallback::kF_FilterBackfaces) {}
+    using btTriangleRaycastCallback::btTriangleRaycastCallback;
     btScalar reportHit(const btVector3&, btScalar fraction, int, int) override { return fraction; }
 };
 

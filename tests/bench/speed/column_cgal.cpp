@@ -33,12 +33,16 @@ class Any : public CgalColumn {
         for (std::size_t i = begin; i < end; ++i) hits += tree().get().do_intersect(segment(i)) ? 1U : 0U;
         return hits;
     }
-    /// By pierce's rule, so that both must say the same: what ends on a triangle's plane does not hit it.
+    /// By pierce's rule for both sides, so that both must say the same: the ends are on different sides of a triangle
+    /// that the segment meets, where on its plane counts as in front.
     Answer answer(std::size_t i) override {
         std::vector<CgalTree::Triangles::const_iterator> met;
         tree().get().all_intersected_primitives(segment(i), std::back_inserter(met));
         return {.hit = std::any_of(met.begin(), met.end(), [&](const auto& t) {
-                    return !CGAL::coplanar(t->vertex(0), t->vertex(1), t->vertex(2), segment(i).target());
+                    const auto behind = [&](const CgalTree::Kernel::Point_3& p) {
+                        return CGAL::orientation(t->vertex(0), t->vertex(1), t->vertex(2), p) == CGAL::NEGATIVE;
+                    };
+                    return behind(segment(i).source()) != behind(segment(i).target());
                 })};
     }
 };

@@ -6,7 +6,7 @@
 namespace pierce::bench {
 namespace {
 
-/// Denormals flushed to zero and read as zero, for as long as it lives: Embree's manual asks for it, pierce must not need it.
+/// Denormals flushed to zero and read as zero, for as long as it lives: Embree's manual asks for it.
 class FlushedDenormals {
   public:
     FlushedDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040U); }

@@ -1,7 +1,8 @@
 #include <optional>
 
-#include "threads.h"
+#include "broadphase.h"
 #include "column.h"
+#include "threads.h"
 
 namespace pierce::bench {
 namespace {
@@ -53,7 +54,8 @@ class Any : public PierceColumn<Scalar> {
     using PierceColumn<Scalar>::PierceColumn;
     std::size_t ask(std::size_t begin, std::size_t end) override {
         std::size_t hits = 0;
-        for (std::size_t i = begin; i < end; ++i) hits += this->mesh().any_hit(this->segments()[i]) ? 1U : 0U;
+        for (std::size_t i = begin; i < end; ++i)
+            hits += this->mesh().any_hit(this->segments()[i], {.sides = Sides::both}) ? 1U : 0U;
         return hits;
     }
 };
@@ -61,8 +63,11 @@ class Any : public PierceColumn<Scalar> {
 template <class Scalar>
 class FirstBatch : public PierceColumn<Scalar> {
   public:
-    FirstBatch(std::string_view name, SharedMesh<Scalar> mesh, unsigned threads)
-        : PierceColumn<Scalar>(name, std::move(mesh)), threads_(threads), executor_(threads) {}
+    FirstBatch(std::string_view name, SharedMesh<Scalar> mesh, Sides sides, unsigned threads = 1)
+        : PierceColumn<Scalar>(name, std::move(mesh)), executor_(threads) {
+        options_.sides = sides;
+        if (threads > 1) options_.executor = executor_;
+    }
 
     void prepare(std::span<const Segment<float>> segments) override {
         PierceColumn<Scalar>::prepare(segments);
@@ -70,15 +75,14 @@ class FirstBatch : public PierceColumn<Scalar> {
     }
     std::size_t ask(std::size_t begin, std::size_t end) override {
         const std::size_t count = end - begin;
-        BatchOptions options;
-        if (threads_ > 1) options.executor = executor_;
-        return this->mesh().first_hits(this->segments().subspan(begin, count), std::span(out_).subspan(begin, count), options);
+        return this->mesh().first_hits(this->segments().subspan(begin, count), std::span(out_).subspan(begin, count),
+                                       options_);
     }
 
   private:
     std::vector<std::optional<Hit<Scalar>>> out_;
-    unsigned threads_;
     Threads executor_;
+    BatchOptions options_;
 };
 
 template <class Scalar>
@@ -91,7 +95,10 @@ class AnyBatch : public PierceColumn<Scalar> {
     }
     std::size_t ask(std::size_t begin, std::size_t end) override {
         const std::size_t count = end - begin;
-        return this->mesh().any_hits(this->segments().subspan(begin, count), std::span(out_).subspan(begin, count));
+        BatchOptions options;
+        options.sides = Sides::both;
+        return this->mesh().any_hits(this->segments().subspan(begin, count), std::span(out_).subspan(begin, count),
+                                     options);
     }
 
   private:
@@ -102,21 +109,30 @@ class AnyBatch : public PierceColumn<Scalar> {
 
 template <>
 void add_pierce_columns<float>(Columns& columns, const SharedMesh<float>& mesh) {
-    columns.push_back(std::make_unique<First<float>>(column::pierce, mesh, Sides::front));
+    columns.push_back(std::make_unique<First<float>>(column::pierce, mesh, Sides::both));
     columns.push_back(pierce_batch_column(column::pierce_batch, mesh, 1));
-    columns.push_back(std::make_unique<First<float>>(column::pierce_both, mesh, Sides::both));
     columns.push_back(std::make_unique<Any<float>>(column::pierce_any, mesh));
     columns.push_back(std::make_unique<AnyBatch<float>>(column::pierce_any_batch, mesh));
+    columns.push_back(std::make_unique<First<float>>(column::fronts, mesh, Sides::front));
+    columns.push_back(std::make_unique<FirstBatch<float>>(column::fronts_batch, mesh, Sides::front));
 }
 
 template <>
 void add_pierce_columns<double>(Columns& columns, const SharedMesh<double>& mesh) {
-    columns.push_back(std::make_unique<First<double>>(column::pierce_double, mesh, Sides::front));
-    columns.push_back(std::make_unique<FirstBatch<double>>(column::pierce_double_batch, mesh, 1U));
+    columns.push_back(std::make_unique<First<double>>(column::pierce_double, mesh, Sides::both));
+    columns.push_back(std::make_unique<FirstBatch<double>>(column::pierce_double_batch, mesh, Sides::both));
+}
+
+void add_grid_columns(Columns& columns, const MeshView<float>& mesh) {
+    const auto options = grid_options();
+    if (!options) return;
+    const auto built = std::make_shared<const CollisionMesh<float>>(mesh, *options);
+    columns.push_back(std::make_unique<First<float>>(column::grid, built, Sides::both));
+    columns.push_back(pierce_batch_column(column::grid_batch, built, 1));
 }
 
 std::unique_ptr<Column> pierce_batch_column(std::string_view name, const SharedMesh<float>& mesh, unsigned threads) {
-    return std::make_unique<FirstBatch<float>>(name, mesh, threads);
+    return std::make_unique<FirstBatch<float>>(name, mesh, Sides::both, threads);
 }
 
 }  // namespace pierce::bench

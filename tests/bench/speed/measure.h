@@ -21,7 +21,7 @@ enum class Clock { thread, process, wall };
 
 double seconds_now(Clock clock);
 
-/// Reports ns a query, for each repetition once for each column. The columns have to be prepared with `segments` segments.
+/// Reports ns a query, once for each repetition and column. Columns have to be prepared with `segments` segments.
 void measure(std::span<Column* const> columns, const Effort& effort, Clock clock,
              const std::function<void(std::string_view column, double ns)>& report);
 

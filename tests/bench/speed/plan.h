@@ -19,20 +19,24 @@ struct Plan {
     }
 
     [[nodiscard]] bool wanted(const BenchMesh& mesh, SegmentSet set) const {
-        return mesh.kind != MeshKind::sphere || !quick || set == SegmentSet::short_1 || set == SegmentSet::medium ||
-               set == SegmentSet::aimed || set == SegmentSet::cloud;
+        return mesh.kind != MeshKind::sphere || !quick || set == SegmentSet::short_02 || set == SegmentSet::short_1 ||
+               set == SegmentSet::medium || set == SegmentSet::aimed || set == SegmentSet::cloud;
     }
 
     [[nodiscard]] bool wanted(SegmentSet set, std::string_view name) const {
         const bool is_short = set == SegmentSet::short_02 || set == SegmentSet::short_1;
-        constexpr std::array everywhere = {column::pierce, column::pierce_batch, column::embree};
+        const bool is_long = set == SegmentSet::aimed || set == SegmentSet::random;
+        constexpr std::array everywhere = {column::pierce, column::pierce_batch, column::fronts, column::fronts_batch,
+                                           column::grid,   column::grid_batch,   column::embree};
+        constexpr std::array any = {column::pierce_any, column::pierce_any_batch, column::embree_any};
         constexpr std::array slow = {column::bullet, column::cgal_any, column::cgal_first};
         const auto among = [&](const auto& names) {
             return std::find(names.begin(), names.end(), name) != names.end();
         };
         if (among(everywhere)) return true;
+        if (among(any)) return !quick || is_short || is_long;
         if (among(slow)) return is_short || (!quick && set != SegmentSet::random);
-        return !quick || is_short || set == SegmentSet::aimed;
+        return !quick || set == SegmentSet::short_1 || set == SegmentSet::aimed;
     }
 };
 

@@ -15,8 +15,13 @@ struct Measured {
 /// One table for each set, a row for each mesh.
 void print_figures(const Results& results, const std::vector<Measured>& meshes);
 
-/// Each ratio on each mesh, and then the lines: the median over the real meshes, and the teapot in the stadium. A ratio is the
-/// peer's time over ours, so more is better; what was not measured has no line.
+/// Each ratio on each mesh, and then lines `ratio NAME VALUE`: medians over the real meshes, some scenes alone, and how
+/// time grows with faces. What was not measured has no line.
 void print_ratios(const Results& results, const std::vector<Measured>& meshes);
+
+/// Three digits, and more only before the point.
+std::string number(double value);
+/// The same, or a dash.
+std::string cell(const std::optional<double>& value);
 
 }  // namespace pierce::bench

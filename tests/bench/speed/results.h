@@ -20,7 +20,7 @@ class Results {
 
     [[nodiscard]] std::optional<double> value(std::string_view mesh, std::string_view set,
                                               std::string_view column) const;
-    /// Of the sums over the sets, within each repetition, as the machine is not the same from one to the next; the median.
+    /// The median of the repetitions' ratios, each of sums over the sets.
     [[nodiscard]] std::optional<double> ratio(std::string_view mesh, const std::vector<std::string_view>& sets,
                                               std::string_view peer, std::string_view ours) const;
 

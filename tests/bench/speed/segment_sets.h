@@ -9,16 +9,17 @@
 
 namespace pierce::bench {
 
-/// The surface is chosen from half by area, as what falls on a scene is, and half by faces, as what moves along details is.
+/// Half of the places on the surface are chosen by area, as for what falls on a scene, half by faces, as for what moves
+/// along details.
 /// Lengths are in diagonals of the mesh's box.
 enum class SegmentSet {
     short_02,  ///< 0.002 long, starting within that length of the surface, in a random direction
     short_1,   ///< the same, 0.01 long
     medium,    ///< the same, 0.1 long
     aimed,     ///< through two points near (0.01) the surface, and half of their distance beyond each
-    random,  ///< through a point of the box in a random direction, from half a diagonal before it to half a diagonal after
+    random,  ///< through a point of the box in a random direction, half a diagonal to each side
     cloud,  ///< 0.005 long, anywhere in the box: mostly free space
-    rest,  ///< starts on a face (as well as floats can), half of them, or just above, and goes 0.0002 against its normal
+    rest,   ///< from a face (as well as floats can), half of them, or just above: 0.0002 against its normal
     axis   ///< from point to point of a lattice of 64^3 cells in the box, 1, 4, 16 or 64 cells along an axis
 };
 

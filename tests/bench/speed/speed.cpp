@@ -1,4 +1,4 @@
-// How fast is pierce, and how fast are the libraries that people use in its place? On the same segments, in one process.
+// How fast is pierce, and how fast are its peers? On the same segments, in one process.
 //   speed [--quick] [--large] [--seconds S] [--out FOLDER] [FILTER]
 // Prints Markdown, and at its end lines `ratio NAME VALUE`. Ends with status 1 if answers differ that must not.
 #include <exception>
@@ -10,6 +10,7 @@
 #include "agreement.h"
 #include "builds.h"
 #include "measure.h"
+#include "memory.h"
 #include "plan.h"
 #include "report.h"
 
@@ -95,7 +96,7 @@ class Suite {
         std::vector<SegmentSet> sets;
         for (const SegmentSet set : k_segment_sets)
             if (plan_.wanted(mesh, set) && selected(mesh, name_of(set))) sets.push_back(set);
-        const bool builds = selected(mesh, set_name::build) || selected(mesh, set_name::thread_build);
+        const bool builds = selected(mesh, set_name::build_fresh) || selected(mesh, set_name::thread_build);
         const bool memory = selected(mesh, set_name::memory);
         const bool threads = selected(mesh, set_name::threads) && mesh.kind != MeshKind::sphere;
         if (sets.empty() && !builds && !memory && !threads) return;
@@ -114,6 +115,7 @@ class Suite {
         Columns columns;
         add_pierce_columns<float>(columns, std::make_shared<const CollisionMesh<float>>(soup.view()));
         add_embree_columns(columns, soup.view(), plan_.all_columns(mesh));
+        add_grid_columns(columns, soup.view());
         if (plan_.all_columns(mesh)) {
             std::vector<Vec3<double>> positions;
             for (const Vec3<float>& p : soup.positions) positions.push_back(p.cast<double>());

@@ -1,4 +1,4 @@
-// Threads for pierce: an executor with a given number of them, and builds with it. Not oneTBB's: Embree limits those for the whole process.
+// Threads for pierce: an executor with a given number of them. Not oneTBB's: Embree limits those.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,8 @@ namespace pierce::bench {
 class Threads {
   public:
     explicit Threads(unsigned count) : work_(std::make_unique<Work>()) {
-        for (unsigned t = 1; t < count; ++t) others_.emplace_back([work = work_.get()](const std::stop_token& stop) { work->serve(stop); });
+        for (unsigned t = 1; t < count; ++t)
+            others_.emplace_back([work = work_.get()](const std::stop_token& stop) { work->serve(stop); });
     }
     ~Threads() {
         for (std::jthread& other : others_) other.request_stop();
@@ -36,7 +37,7 @@ class Threads {
     }
 
   private:
-    // A build calls some ten times within a few milliseconds: as job systems do, threads look for work for a while before they sleep.
+    // A build calls some ten times within a few milliseconds: threads look for work for a while before they sleep.
     template <class Value>
     static void wait_while(const std::atomic<Value>& value, Value old) {
         constexpr int k_looks = 100'000;  // some tens of microseconds
@@ -73,10 +74,5 @@ class Threads {
     std::unique_ptr<Work> work_;
     std::vector<std::jthread> others_;
 };
-
-template <class Scalar>
-CollisionMesh<Scalar> build(const MeshView<Scalar>& mesh, const Threads& threads) {
-    return CollisionMesh<Scalar>(mesh, {.executor = Executor(threads)});
-}
 
 }  // namespace pierce::bench
