@@ -42,8 +42,14 @@ bool is_inside(const pierce::CollisionMesh<double>& mesh, const Vec3& point, dou
         bool clear = way.norm() > far_away / 4;
         for (std::size_t i = 0; i < count; ++i) {
             clear = clear && hits[i].feature == pierce::Feature::face;
-            // A point on the inner side of a face may lie on its plane: to go in from there crosses nothing.
-            crossings += !(hits[i].at_start && hits[i].side == pierce::Sides::front);
+            crossings += !hits[i].at_start;
+        }
+        // A point on the inner side of a face may lie on its plane. To go in from there crosses nothing; to go out is a hit where only
+        // backs count, for which on the plane is behind.
+        const auto leaves = mesh.first_hit({point, point + way}, {.sides = pierce::Sides::back});
+        if (leaves && leaves->at_start) {
+            clear = clear && leaves->feature == pierce::Feature::face;
+            ++crossings;
         }
         if (clear) return crossings % 2 == 1;
     }
