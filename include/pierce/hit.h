@@ -9,8 +9,9 @@ namespace pierce {
 
 /// A segment hits the front of the closed triangle a, b, c (counter-clockwise seen from its front) when `from` lies in
 /// front of its plane or on it, `to` lies strictly behind, and the two meet. So a point that ends a step on a face has
-/// not hit it yet, and hits it on the next step if that one goes in. What counts from the back, or from both sides, `Sides` says. A segment in the plane, a segment of length zero
-/// and a triangle of area zero never hit. All of it is decided as if in exact arithmetic on the coordinates given.
+/// not hit it yet, and hits it on the next step if that one goes in. `Sides` says what counts from the back, and from both
+/// sides. A segment in the plane, a segment of length zero and a triangle of area zero never hit. All of it is decided as if
+/// in exact arithmetic on the coordinates given.
 template <class Scalar>
 struct Hit {
     /// A lower bound of `exact_fraction` that belongs to `point`: 0 where nothing nearer could be verified.

@@ -53,8 +53,8 @@ template <class Scalar>
 }
 
 /// Sets `fraction` and `point` of a hit so that the segment from -> point has no hit: none of the hit's own triangle, as the point
-/// stays on the near side of its plane or, where that is no passage, on it (`side(point)`), and none of any other, which `clear(point)` says. `from` itself
-/// needs no proof. Returns how many points were tried and not taken.
+/// stays on the near side of its plane or, where that is no passage, on it (`side(point)`), and none of any other, which
+/// `clear(point)` says. `from` itself needs no proof. Returns how many points were tried and not taken.
 ///
 /// The rounded point of a true hit lies behind the face about half of the time. The first to be tried is that point; then, along
 /// the segment, one moved back by as much as rounding can have moved the point through the plane; then four times

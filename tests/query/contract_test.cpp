@@ -353,8 +353,9 @@ void expect_verified(const TriangleSoup<Scalar>& soup, std::uint64_t seed) {
         const double length = (segment.to.template cast<double>() - from).norm();
         const double unit = std::numeric_limits<Scalar>::epsilon() * from.cwiseAbs().maxCoeff();
         near += double(hit->exact_fraction - hit->fraction) * length <= 8 * unit ? 1 : 0;
-        // Who goes on from there is stopped again, unless it only grazed an edge that rounding moved it past. (Where both sides count, a point
-        // that rounding put onto the plane of a next face may leave it to the front.)
+        // Who goes on from there is stopped again, unless it only grazed an edge that rounding moved it past. Asked of
+        // fronts alone: where both sides count, starts on a plane that leave it to the front are no hits, and as hits at
+        // fraction 0 they would be stopped again every time; without them the polycube has 97.9 %.
         if (options.sides == Sides::both) continue;
         ++fronts;
         stopped_again += mesh.any_hit({hit->point, segment.to}, options) ? 1 : 0;
