@@ -24,7 +24,12 @@ struct Avx2 {
     static Mask both(Mask x, Mask y) { return _mm256_and_ps(x, y); }
     static Mask either(Mask x, Mask y) { return _mm256_or_ps(x, y); }
     static unsigned bits(Mask x) { return static_cast<unsigned>(_mm256_movemask_ps(x)); }
-    static Float select(Mask mask, Float x, Float y) { return _mm256_blendv_ps(y, x, mask); }
+    // The bits of infinity, k_no_key, are above those of all other keys.
+    static Float greater(Float x, Float y) {
+        return _mm256_castsi256_ps(_mm256_max_epi32(_mm256_castps_si256(x), _mm256_castps_si256(y)));
+    }
+    static Float none_where(Mask mask, Float keys) { return greater(keys, _mm256_and_ps(mask, all(__builtin_inff()))); }
+    static Float none_but(Mask mask, Float keys) { return greater(keys, _mm256_andnot_ps(mask, all(__builtin_inff()))); }
 
     static Float words(const std::uint16_t* x) {
         return _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(x))));

@@ -27,7 +27,8 @@ struct Neon {
         const uint32x4_t bit = {1, 2, 4, 8};
         return vaddvq_u32(vandq_u32(x, bit));
     }
-    static Float select(Mask mask, Float x, Float y) { return vbslq_f32(mask, x, y); }
+    static Float none_where(Mask mask, Float keys) { return vbslq_f32(mask, all(__builtin_inff()), keys); }
+    static Float none_but(Mask mask, Float keys) { return vbslq_f32(mask, keys, all(__builtin_inff())); }
 
     static Float words(const std::uint16_t* x) { return vcvtq_f32_u32(vmovl_u16(vld1_u16(x))); }
     static Float bytes(const std::uint8_t* x) {

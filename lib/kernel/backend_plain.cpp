@@ -26,7 +26,8 @@ struct Plain {
     static Mask both(Mask x, Mask y) { return x && y; }
     static Mask either(Mask x, Mask y) { return x || y; }
     static unsigned bits(Mask x) { return x ? 1 : 0; }
-    static Float select(Mask mask, Float x, Float y) { return mask ? x : y; }
+    static Float none_where(Mask mask, Float key) { return mask ? __builtin_inff() : key; }
+    static Float none_but(Mask mask, Float key) { return mask ? key : __builtin_inff(); }
 
     static Float words(const std::uint16_t* x) { return *x; }
     static Float bytes(const std::uint8_t* x) { return *x; }

@@ -5,32 +5,31 @@
 
 namespace pierce::detail {
 
-/// Parameters t of a probe run from 0 to 1 over the part of the segment that may touch the scene: nearly always all of it.
+/// Parameters t of a probe run from 0 to 1 over the part of the segment that may touch the scene: nearly always all of it. Of each four numbers
+/// the last is of no use.
 template <class Scalar>
 struct Probe {
     // In scene units, relative to Frame::low.
-    double origin[3];
-    double direction[3];
-    double noise[3];  ///< how far a point of the segment may be off, and a way to a rounded point of it may lead off it
+    double origin[4];
+    double direction[4];
+    double noise[4];  ///< how far a point of the segment may be off, and a way to a rounded point of it may lead off it
     // The caller's fraction is begin + t * length.
     double begin;
     double length;
 
     // Slab tests: 1 / direction, and |that| * noise.
-    float inverse[3];
-    float margin[3];
+    float inverse[4];
+    float margin[4];
     // For bounds on the scene's lattice: t is near[axis] + bound * pace[axis] at the near side of a slab.
-    float pace[3];
-    float near[3];
-    float far[3];
-    std::uint32_t flipped;  ///< bit k: the direction goes down along axis k
+    float pace[4];
+    float near[4];
+    float far[4];
 
     // The test of a cluster. For float in the caller's units, for double in scene units.
-    Scalar corner_origin[3];
+    Scalar corner_origin[4];
+    float corner_direction[4];
     Scalar scale;
-    float corner_direction[3];
-    float reach;          ///< D, the largest |component| of that
-    float edge_bound;     ///< of the bound for the volumes of edges, times D: see cluster_test.h
+    float edge_bound;  ///< of the bound for the volumes of edges, times D: see cluster_test.h
     float start_bound;
     float noise_bound;
     float plane_bound;

@@ -15,8 +15,10 @@
 // are told apart less and less well, and from 2^46 on everything is visited.
 #pragma once
 
-#include <node.h>
+#include <cstdint>
+
 #include <kernel/probe.h>
+#include <node.h>
 
 namespace pierce::detail {
 
@@ -83,77 +85,96 @@ template <class Wide, class Scalar>
     return true;
 }
 
+// Three numbers and one that is of no use, all finite.
+typedef double Four __attribute__((vector_size(32)));
+typedef float FourFloats __attribute__((vector_size(16)));
+typedef std::int64_t FourWords __attribute__((vector_size(32)));
+
 /// Returns false if the segment certainly touches nothing.
 template <class Wide, class Scalar>
 [[gnu::always_inline]] inline bool set_probe(const Frame& frame, const double* from, const double* to, bool front_only, bool back_only,
                                              Probe<Scalar>& probe) {
-    double furthest = 0;
-    double moved_from[3] = {from[0], from[1], from[2]};
-    double moved[3];
-    for (int k = 0; k < 3; ++k) {
-        const double x = from[k] * frame.unit - frame.low[k];
-        const double z = to[k] * frame.unit - frame.low[k];
-        moved[k] = to[k] - from[k];
-        probe.origin[k] = x;
-        probe.direction[k] = moved[k] * frame.unit;
-        const double size = magnitude<Wide>(x) + magnitude<Wide>(z);
-        probe.noise[k] = frame.noise + 0x1p-51 * size;
-        furthest = size > furthest ? size : furthest;
-    }
+    constexpr bool k_double = sizeof(Scalar) == sizeof(double);
+    const auto most = [](const Four& x) __attribute__((always_inline)) {
+        const double y = x[0] > x[1] ? x[0] : x[1];
+        return y > x[2] ? y : x[2];
+    };
+    const auto store = [](auto* to_, const auto& x) __attribute__((always_inline)) { __builtin_memcpy(to_, &x, sizeof x); };
+    const FourWords sign = {INT64_MIN, INT64_MIN, INT64_MIN, INT64_MIN};
+    const auto size_of = [&](const Four& y) __attribute__((always_inline)) { return reinterpret_cast<Four>(reinterpret_cast<FourWords>(y) & ~sign); };
+    // Number by number: who has just written two of them as single numbers would wait for a load of both.
+    const auto load = [](const double* y) __attribute__((always_inline)) {
+        const auto* each = static_cast<const volatile double*>(y);
+        const double a = each[0];
+        const double b = each[1];
+        const double c = each[2];
+        return Four{a, b, c, 0};
+    };
+    Four start = load(from);
+    const Four end = load(to);
+    const Four low = {frame.low[0], frame.low[1], frame.low[2], 0};
+    Four moved = end - start;
+    Four x = start * frame.unit - low;
+    const Four z = end * frame.unit - low;
+    Four d = moved * frame.unit;
+    const double furthest = most(size_of(x) + size_of(z));
+    double noise = frame.noise + 0x1p-51 * furthest;
     probe.begin = 0;
     probe.length = 1;
     probe.front_only = front_only;
     probe.back_only = back_only;
-    bool clipped = false;
-    if (!(furthest <= k_far)) [[unlikely]] {
-        clipped = true;
-        if (!clip<Wide>(frame, from, to, probe, moved_from, moved)) return false;
+    const bool clipped = !(furthest <= k_far);
+    if (clipped) [[unlikely]] {
+        double moved_from[3];
+        double way[3];
+        if (!clip<Wide>(frame, from, to, probe, moved_from, way)) return false;
+        start = Four{moved_from[0], moved_from[1], moved_from[2], 0};
+        moved = Four{way[0], way[1], way[2], 0};
+        x = Four{probe.origin[0], probe.origin[1], probe.origin[2], 0};
+        d = Four{probe.direction[0], probe.direction[1], probe.direction[2], 0};
+        noise = probe.noise[0];
     }
-    double noise = 0;
-    double scale = 1;
-    if constexpr (sizeof(Scalar) == sizeof(double)) scale = frame.unit;
-    double reach = 0;
-    probe.flipped = 0;
-    for (int k = 0; k < 3; ++k) {
-        double d = probe.direction[k];
-        // A shorter way along an axis is taken for one of 2^-60: no point moves by more, which is less than the noise.
-        if (!(magnitude<Wide>(d) >= 0x1p-60)) d = d < 0 ? -0x1p-60 : 0x1p-60;
-        const double inverse = 1 / d;
-        const double size = magnitude<Wide>(inverse);
-        probe.inverse[k] = static_cast<float>(inverse);
-        probe.margin[k] = static_cast<float>(size * probe.noise[k] * (1 + 0x1p-20));
-        probe.pace[k] = static_cast<float>(inverse * frame.step);
-        const double center = -probe.origin[k] * inverse;
-        const double e = size * (probe.noise[k] + 0x1p-19);
-        probe.near[k] = static_cast<float>(center - e);
-        probe.far[k] = static_cast<float>(center + e);
-        probe.flipped |= static_cast<std::uint32_t>(d < 0) << k;
-        noise = probe.noise[k] > noise ? probe.noise[k] : noise;
-        probe.corner_origin[k] = static_cast<Scalar>(moved_from[k]);
-        probe.corner_direction[k] = static_cast<float>(moved[k] * scale);
-        const double length = magnitude<Wide>(moved[k] * scale);
-        reach = length > reach ? length : reach;
-    }
+    store(probe.origin, x);
+    store(probe.direction, d);
+    store(probe.noise, Four{noise, noise, noise, noise});
+
+    // A shorter way along an axis is taken for one of 2^-60: no point moves by more, which is less than the noise.
+    const Four size = size_of(d);
+    const auto tiny = size < 0x1p-60;
+    const Four least = {0x1p-60, 0x1p-60, 0x1p-60, 0x1p-60};
+    const Four way = reinterpret_cast<Four>((reinterpret_cast<FourWords>(d) & sign) | (tiny & reinterpret_cast<FourWords>(least)) | (~tiny & reinterpret_cast<FourWords>(size)));
+    const Four inverse = 1 / way;
+    const Four per_noise = size_of(inverse);
+    const Four center = -x * inverse;
+    const Four e = per_noise * (noise + 0x1p-19);
+    store(probe.inverse, __builtin_convertvector(inverse, FourFloats));
+    store(probe.margin, __builtin_convertvector(per_noise * (noise * (1 + 0x1p-20)), FourFloats));
+    store(probe.pace, __builtin_convertvector(inverse * frame.step, FourFloats));
+    store(probe.near, __builtin_convertvector(center - e, FourFloats));
+    store(probe.far, __builtin_convertvector(center + e, FourFloats));
+
+    const double scale = k_double ? frame.unit : 1;
+    const Four length = k_double ? d : moved;
+    if constexpr (k_double) store(probe.corner_origin, start);
+    else store(probe.corner_origin, __builtin_convertvector(start, FourFloats));
+    store(probe.corner_direction, __builtin_convertvector(length, FourFloats));
     probe.scale = static_cast<Scalar>(scale);
     // Of the cluster test; derived there.
     constexpr double u = 0x1p-24;
     const double unit = scale / frame.unit;  // of the cluster test's lengths in scene units: 1, or that of the caller's coordinates
+    const double reach = most(size_of(length));
     double g = noise * unit * (1 + 0x1p-20);
-    if (clipped) {  // the origin was moved and rounded
-        double most = 0;
-        for (int k = 0; k < 3; ++k) most = magnitude<Wide>(moved_from[k]) > most ? magnitude<Wide>(moved_from[k]) : most;
-        g += most * scale * (sizeof(Scalar) == sizeof(double) ? 0x1p-50 : 0x1p-23);
-    }
+    if (clipped) [[unlikely]]  // the origin was moved and rounded
+        g += most(size_of(start)) * scale * (k_double ? 0x1p-50 : 0x1p-23);
     const bool tame = frame.unit >= 0x1p-30 && frame.unit <= 0x1p30;
     const double floor = 0x1p-120 * (1 + 16 * unit) * (1 + 16 * unit);  // normal: a denormal operand costs 150 cycles
     const double none = static_cast<double>(__builtin_inff());
-    probe.reach = static_cast<float>(reach);
     probe.edge_bound = static_cast<float>(64 * u * (1 + 0x1p-20) * reach);
     probe.start_bound = static_cast<float>(128 * u * (1 + 0x1p-20) * reach);
     probe.noise_bound = static_cast<float>(12 * g * (1 + 0x1p-20) * reach);
     probe.plane_bound = static_cast<float>(64 * u);
     probe.plane_noise = static_cast<float>(6 * g * (1 + 0x1p-20) + 64 * u * (1 + 0x1p-20) * reach);
-    probe.floor = static_cast<float>(sizeof(Scalar) == sizeof(double) || tame ? floor : none);
+    probe.floor = static_cast<float>(k_double || tame ? floor : none);
     probe.nodes = 0;
     probe.clusters = 0;
     return true;

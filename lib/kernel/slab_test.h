@@ -44,8 +44,9 @@ struct Ray {
             pace[k] = Wide::all(probe.pace[k]);
             near[k] = Wide::all(probe.near[k]);
             far[k] = Wide::all(probe.far[k]);
-            near_row[k] = 2 * k + (probe.flipped >> k & 1);
-            far_row[k] = 2 * k + 1 - (probe.flipped >> k & 1);
+            const unsigned down = __builtin_signbitf(probe.inverse[k]) != 0 ? 1 : 0;
+            near_row[k] = 2 * k + down;
+            far_row[k] = 2 * k + 1 - down;
         }
     }
 };
@@ -111,7 +112,7 @@ template <class Wide>
 [[gnu::always_inline]] inline Sixteen<Wide> keys_of(const Touched<Wide>& touched) {
     Sixteen<Wide> keys;
     for (unsigned g = 0; g < Sixteen<Wide>::groups; ++g)
-        keys.part[g] = Wide::select(touched.hit[g], Wide::key(touched.entry.part[g], Wide::width * g), Wide::all(__builtin_inff()));
+        keys.part[g] = Wide::none_but(touched.hit[g], Wide::key(touched.entry.part[g], Wide::width * g));
     return keys;
 }
 
@@ -126,7 +127,7 @@ template <class Wide>
 template <class Wide>
 [[gnu::always_inline]] inline void take_key(Sixteen<Wide>& keys, std::uint32_t key) {
     for (unsigned g = 0; g < Sixteen<Wide>::groups; ++g)
-        keys.part[g] = Wide::select(Wide::same(keys.part[g], Wide::all_bits(key)), Wide::all(__builtin_inff()), keys.part[g]);
+        keys.part[g] = Wide::none_where(Wide::same(keys.part[g], Wide::all_bits(key)), keys.part[g]);
 }
 
 /// Of a parameter, for comparison with keys: none of an entry up to it is larger.
