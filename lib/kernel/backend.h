@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cluster/record.h>
+#include <kernel/flight.h>
 #include <kernel/probe.h>
 #include <node.h>
 
@@ -13,6 +14,8 @@ struct ScalarKernels {
     bool (*set_probe)(const Frame& frame, const double* from, const double* to, bool front_only, bool back_only, Probe<Scalar>& probe);
     /// Visits the clusters of which triangles may be hit at a parameter up to `limit`, nearest first (traverse.h); counts in the probe.
     void (*traverse)(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit, void* self);
+    /// Traversals of many segments (flight.h).
+    void (*fly)(const TreeView& tree, const Scalar* records, const Flight<Scalar>& flight);
     /// The triangles of one cluster that may be hit (cluster_test.h), a bit for each.
     unsigned (*test_cluster)(const Probe<Scalar>& probe, const Scalar* records, ClusterRef cluster, float limit);
 };

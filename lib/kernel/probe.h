@@ -24,6 +24,7 @@ struct Probe {
     float pace[4];
     float near[4];
     float far[4];
+    std::uint32_t near_row[4];  ///< of the bounds: 2k, or 2k + 1 where the direction goes down along axis k
 
     // The test of a cluster. For float in the caller's units, for double in scene units.
     Scalar corner_origin[4];

@@ -89,6 +89,7 @@ template <class Wide, class Scalar>
 typedef double Four __attribute__((vector_size(32)));
 typedef float FourFloats __attribute__((vector_size(16)));
 typedef std::int64_t FourWords __attribute__((vector_size(32)));
+typedef std::uint32_t FourRows __attribute__((vector_size(16)));
 
 /// Returns false if the segment certainly touches nothing.
 template <class Wide, class Scalar>
@@ -152,6 +153,7 @@ template <class Wide, class Scalar>
     store(probe.pace, __builtin_convertvector(inverse * frame.step, FourFloats));
     store(probe.near, __builtin_convertvector(center - e, FourFloats));
     store(probe.far, __builtin_convertvector(center + e, FourFloats));
+    store(probe.near_row, FourRows{0, 2, 4, 6} - __builtin_convertvector(way < 0, FourRows));
 
     const double scale = k_double ? frame.unit : 1;
     const Four length = k_double ? d : moved;

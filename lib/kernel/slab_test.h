@@ -44,9 +44,8 @@ struct Ray {
             pace[k] = Wide::all(probe.pace[k]);
             near[k] = Wide::all(probe.near[k]);
             far[k] = Wide::all(probe.far[k]);
-            const unsigned down = __builtin_signbitf(probe.inverse[k]) != 0 ? 1 : 0;
-            near_row[k] = 2 * k + down;
-            far_row[k] = 2 * k + 1 - down;
+            near_row[k] = probe.near_row[k];
+            far_row[k] = near_row[k] ^ 1;
         }
     }
 };
@@ -121,6 +120,14 @@ template <class Wide>
     typename Wide::Float least = keys.part[0];
     for (unsigned g = 1; g < Sixteen<Wide>::groups; ++g) least = Wide::least(least, keys.part[g]);
     return Wide::least_of(least);
+}
+
+/// 1 if there is one that was not taken.
+template <class Wide>
+[[gnu::always_inline]] inline unsigned any_key(const Sixteen<Wide>& keys) {
+    typename Wide::Float least = keys.part[0];
+    for (unsigned g = 1; g < Sixteen<Wide>::groups; ++g) least = Wide::least(least, keys.part[g]);
+    return Wide::bits(Wide::below(least, Wide::all(__builtin_inff()))) != 0 ? 1U : 0U;
 }
 
 /// Takes a key out.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <kernel/backend.h>
+#include <kernel/run_flight.h>
 #include <kernel/set_probe.h>
 #include <kernel/traverse.h>
 
@@ -17,10 +18,11 @@ struct KernelsOf {
     static void walk(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit, void* self) {
         traverse<Wide>(tree, records, probe, limit, visit, self);
     }
+    static void go(const TreeView& tree, const Scalar* records, const Flight<Scalar>& flight) { fly<Wide>(tree, records, flight); }
     static unsigned test(const Probe<Scalar>& probe, const Scalar* records, ClusterRef cluster, float limit) {
         return test_cluster<Wide>(probe, records, cluster, limit);
     }
-    static constexpr ScalarKernels<Scalar> table() { return {make, walk, test}; }
+    static constexpr ScalarKernels<Scalar> table() { return {make, walk, go, test}; }
 };
 
 template <class Wide>
