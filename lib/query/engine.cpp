@@ -29,7 +29,7 @@ std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
     All<Scalar> all(scene, path, out, counters);
     traverse<Certified>(scene, path, options, counters, all);
     all.sort();
-    TriangleRef before;
+    TriangleRef before{};
     for (std::size_t i = 0; i < all.kept_count(); ++i) {
         const Candidate candidate = All<Scalar>::candidate_of(out[i]);
         // Duplicates of one triangle, one behind the other: but for their numbers the answer is the same.
@@ -123,61 +123,6 @@ int winding_number(const Scene<Scalar>& scene, const Vec3<Scalar>& at, QueryCoun
     return -crossings_of(scene, way_out(point, scene.bounds), counters);
 }
 
-namespace {
-
-// The ends of query i; false where one is not finite, which counts as invalid.
-template <class Scalar>
-bool read_path(const Ends<Scalar>& ends, std::size_t i, Path& path, std::size_t& invalid) {
-    if (!is_finite(ends, i)) {
-        ++invalid;
-        return false;
-    }
-    const auto at = static_cast<std::ptrdiff_t>(i);
-    for (std::size_t k = 0; k < 3; ++k) {
-        path.from[k] = static_cast<double>(ends.from[at * ends.from_stride + static_cast<std::ptrdiff_t>(k)]);
-        path.to[k] = static_cast<double>(ends.to[at * ends.to_stride + static_cast<std::ptrdiff_t>(k)]);
-    }
-    return true;
-}
-
-}  // namespace
-
-template <class Scalar, class Answer>
-std::size_t first_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last,
-                       std::optional<Answer>* out, const QueryOptions& options, QueryCounters& counters, std::size_t& invalid) {
-    std::size_t hits = 0;
-    Path path;
-    for (std::size_t i = first; i < last; ++i) {
-        out[i].reset();
-        if (!read_path(ends, i, path, invalid)) continue;
-        First<Scalar> collector(scene, path, counters);
-        Shortlist list;
-        traverse<Certified>(scene, path, options, counters, collector, &list);
-        if (!collector.found()) continue;
-        ++hits;
-        Answer& hit = out[i].emplace();
-        answer<Certified, Scalar>(scene, path, collector.best(), none_passed, options, counters, &list, hit);
-        if constexpr (std::is_same_v<Answer, SweepHit<Scalar>>) hit.time_of_impact = hit.fraction;
-    }
-    return hits;
-}
-
-template <class Scalar>
-std::size_t any_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last, std::uint8_t* out,
-                     const QueryOptions& options, QueryCounters& counters, std::size_t& invalid) {
-    std::size_t hits = 0;
-    Path path;
-    for (std::size_t i = first; i < last; ++i) {
-        out[i] = 0;
-        if (!read_path(ends, i, path, invalid)) continue;
-        Any any(none_passed);
-        traverse<Certified>(scene, path, options, counters, any);
-        out[i] = any.found() ? 1 : 0;
-        hits += out[i];
-    }
-    return hits;
-}
-
 template std::optional<Hit<float>> first_hit(const Scene<float>&, const Segment<float>&, const QueryOptions&, QueryCounters&);
 template bool any_hit(const Scene<float>&, const Segment<float>&, const QueryOptions&, QueryCounters&);
 template std::size_t all_hits(const Scene<float>&, const Segment<float>&, std::span<Hit<float>>, const QueryOptions&,
@@ -190,18 +135,5 @@ template std::size_t all_hits(const Scene<double>&, const Segment<double>&, std:
                               QueryCounters&);
 template int crossings(const Scene<double>&, const Segment<double>&, QueryCounters&);
 template int winding_number(const Scene<double>&, const Vec3<double>&, QueryCounters&);
-
-template std::size_t first_hits(const Scene<float>&, const Ends<float>&, std::size_t, std::size_t, std::optional<Hit<float>>*,
-                                const QueryOptions&, QueryCounters&, std::size_t&);
-template std::size_t first_hits(const Scene<float>&, const Ends<float>&, std::size_t, std::size_t, std::optional<SweepHit<float>>*,
-                                const QueryOptions&, QueryCounters&, std::size_t&);
-template std::size_t any_hits(const Scene<float>&, const Ends<float>&, std::size_t, std::size_t, std::uint8_t*,
-                              const QueryOptions&, QueryCounters&, std::size_t&);
-template std::size_t first_hits(const Scene<double>&, const Ends<double>&, std::size_t, std::size_t, std::optional<Hit<double>>*,
-                                const QueryOptions&, QueryCounters&, std::size_t&);
-template std::size_t first_hits(const Scene<double>&, const Ends<double>&, std::size_t, std::size_t,
-                                std::optional<SweepHit<double>>*, const QueryOptions&, QueryCounters&, std::size_t&);
-template std::size_t any_hits(const Scene<double>&, const Ends<double>&, std::size_t, std::size_t, std::uint8_t*,
-                              const QueryOptions&, QueryCounters&, std::size_t&);
 
 }  // namespace pierce::detail

@@ -1,6 +1,8 @@
 // The one way through the rooms: broadphase, wide kernels, filter, exact arithmetic where that is in doubt, collector.
 #pragma once
 
+#include <bit>
+
 #include <query/broadphase.h>
 #include <query/certified.h>
 
@@ -36,6 +38,18 @@ void test_triangle(const Scene<Scalar>& scene, const Path& path, TriangleRef tri
     collector.add();
 }
 
+/// Gives the collector those of a cluster's triangles that are in `lanes`. Returns the fraction from which on hits are of no use.
+template <class Kernel, class Scalar, class Collector>
+double test_cluster(const Scene<Scalar>& scene, const Path& path, ClusterRef cluster, unsigned lanes, const QueryOptions& options,
+                    QueryCounters& counters, Collector& collector, Shortlist* list) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const TriangleRef triangle{cluster, static_cast<std::uint32_t>(std::countr_zero(lanes))};
+        if (list != nullptr) list->add(triangle);
+        test_triangle<Kernel>(scene, path, triangle, options, counters, collector);
+    }
+    return std::min(collector.limit(), options.max_fraction);
+}
+
 /// Gives the collector of a query each triangle that the path hits under `options`. A collector has
 ///   double limit()                hits beyond this fraction are of no use; negative: none is any more
 ///   bool wants(triangle)          whether to look at it at all
@@ -45,15 +59,10 @@ void test_triangle(const Scene<Scalar>& scene, const Path& path, TriangleRef tri
 template <class Kernel, class Scalar, class Collector>
 void traverse(const Scene<Scalar>& scene, const Path& path, const QueryOptions& options, QueryCounters& counters, Collector& collector,
               Shortlist* list = nullptr) {
-    const auto limit = [&] { return std::min(collector.limit(), options.max_fraction); };
-    each_candidate(scene, path, options.sides, limit(), counters, [&](ClusterRef cluster, unsigned lanes) {
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const TriangleRef triangle{cluster, static_cast<std::uint32_t>(std::countr_zero(lanes))};
-            if (list != nullptr) list->add(triangle);
-            test_triangle<Kernel>(scene, path, triangle, options, counters, collector);
-        }
-        return limit();
-    });
+    each_candidate(scene, path, options.sides, std::min(collector.limit(), options.max_fraction), counters,
+                   [&](ClusterRef cluster, unsigned lanes) {
+                       return test_cluster<Kernel>(scene, path, cluster, lanes, options, counters, collector, list);
+                   });
 }
 
 }  // namespace pierce::detail
