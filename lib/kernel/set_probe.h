@@ -21,6 +21,9 @@
 namespace pierce::detail {
 
 constexpr double k_far = 8;
+/// In scenes of a smaller unit, ends within k_far are up to 2 * k_far / unit >= 2^1024 apart: their difference may
+/// overflow. Clipping does without it.
+constexpr double k_least_unit = 0x1p-1019;
 
 template <class Wide>
 [[gnu::always_inline]] inline double magnitude(double x) {
@@ -77,7 +80,7 @@ template <class Wide, class Scalar>
         probe.direction[k] = sign * ((out - in) * e[k]);
         probe.noise[k] = frame.noise + off;
         const double start = (base == 0 ? from[k] : to[k]);
-        moved_from[k] = start + at * 2 * (e[k] / frame.unit);
+        moved_from[k] = start + (at * 2 * e[k]) / frame.unit;
         moved[k] = probe.direction[k] / frame.unit;
     }
     return true;
@@ -105,7 +108,7 @@ template <class Wide, class Scalar>
     probe.front_only = front_only;
     probe.back_only = back_only;
     bool clipped = false;
-    if (!(furthest <= k_far)) [[unlikely]] {
+    if (!(furthest <= k_far) || frame.unit < k_least_unit) [[unlikely]] {
         clipped = true;
         if (!clip<Wide>(frame, from, to, probe, moved_from, moved)) return false;
     }
@@ -130,8 +133,10 @@ template <class Wide, class Scalar>
         probe.flipped |= static_cast<std::uint32_t>(d < 0) << k;
         noise = probe.noise[k] > noise ? probe.noise[k] : noise;
         probe.corner_origin[k] = static_cast<Scalar>(moved_from[k]);
-        probe.corner_direction[k] = static_cast<float>(moved[k] * scale);
-        const double length = magnitude<Wide>(moved[k] * scale);
+        // For double that is moved * scale, where `moved` does not overflow.
+        const double way = sizeof(Scalar) == sizeof(double) ? probe.direction[k] : moved[k];
+        probe.corner_direction[k] = static_cast<float>(way);
+        const double length = magnitude<Wide>(way);
         reach = length > reach ? length : reach;
     }
     probe.scale = static_cast<Scalar>(scale);

@@ -1,6 +1,8 @@
-// What the rest of query/ knows of a broadphase: it gives the triangles that a segment may hit, roughly nearest first.
+// What the rest of query/ knows of a broadphase, tree or grid: it gives the triangles that a segment may hit, roughly
+// nearest first.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -8,26 +10,52 @@
 
 namespace pierce::detail {
 
-/// A fraction of the segment as the parameter of a probe, rounded up; negative where nothing of the probe comes before it. The last terms are for
-/// the roundings here, and of `begin` where the probe was clipped (set_probe.h: within 2^-52).
+/// A fraction of the segment as the parameter of a probe, rounded up; negative where nothing of the probe comes before
+/// it. The last terms are for the roundings here, and of `begin` where the probe was clipped (set_probe.h: within
+/// 2^-52).
 template <class Scalar>
 [[nodiscard]] inline float parameter(const Probe<Scalar>& probe, double fraction) {
     if (!(fraction >= 0)) return -1;
-    if (probe.length == 1) return static_cast<float>(std::min(fraction, 1.0)) * (1 + 0x1p-22F) + std::numeric_limits<float>::min();
+    const auto up = [](double x) {
+        return static_cast<float>(std::min(x, 1.0)) * (1 + 0x1p-22F) + std::numeric_limits<float>::min();
+    };
+    if (probe.length == 1) return up(fraction);
     const double left = fraction - probe.begin + 0x1p-50;
-    if (left < 0) return -1;
-    return static_cast<float>(std::min(left / probe.length, 1.0)) * (1 + 0x1p-22F) + std::numeric_limits<float>::min();
+    return left < 0 ? -1 : up(left / probe.length);
 }
 
-/// Calls `use(cluster, lanes)` for each cluster of which the wide kernels can't refuse all triangles: bits in `lanes` say which are left.
-/// No triangle comes twice. `use` returns the fraction from which on hits are of no use; negative: none is any more. Nothing is left out that the
-/// segment hits, or that a way within `Scene::near_bound` of it hits, up to that fraction.
+/// Does with the grid what `kernels.traverse` does with the tree. A limit is a float all the way: what the grid hands on
+/// is the last one that it got, or 1.
+template <class Scalar>
+void traverse_grid(const Scene<Scalar>& scene, const ScalarKernels<Scalar>& kernels, Probe<Scalar>& probe,
+                   float first_limit, Visit visit, void* self) {
+    // A larger noise in one axis only means more cells. An infinite one, or NaN in the probe, means all of them.
+    const double noise = std::max({probe.noise[0], probe.noise[1], probe.noise[2]});
+    const Scalar* records = scene.clusters.records.data();
+    std::uint64_t cells = 0;
+    scene.grid.visit(probe.origin, probe.direction, noise, first_limit, cells,
+                     [&](ClusterRef cluster, double limit) -> double {
+                         ++probe.clusters;
+                         const unsigned lanes =
+                             kernels.test_cluster(probe, records, cluster, static_cast<float>(limit));
+                         return lanes != 0 ? visit(self, cluster, lanes) : limit;
+                     });
+    probe.nodes = static_cast<std::uint32_t>(cells);
+}
+
+/// Calls `use(cluster, lanes)` for each cluster of which the wide kernels can't refuse all triangles: bits in `lanes`
+/// say which are left. No triangle comes twice. `use` returns the fraction from which on hits are of no use; negative:
+/// none is any more. Nothing is left out that the segment hits, or that a way within `Scene::near_bound` of it hits, up
+/// to that fraction.
 template <class Scalar, class Use>
-void each_candidate(const Scene<Scalar>& scene, const Path& path, Sides sides, double limit, QueryCounters& counters, Use&& use) {
+void each_candidate(const Scene<Scalar>& scene, const Path& path, Sides sides, double limit, QueryCounters& counters,
+                    Use&& use) {
     if (scene.empty()) return;
     const ScalarKernels<Scalar>& kernels = scene.backend->template of<Scalar>();
     Probe<Scalar> probe;
-    if (!kernels.set_probe(scene.frame, path.from.data(), path.to.data(), sides == Sides::front, sides == Sides::back, probe)) return;
+    if (!kernels.set_probe(scene.frame, path.from.data(), path.to.data(), sides == Sides::front, sides == Sides::back,
+                           probe))
+        return;
     const float first_limit = parameter(probe, limit);
     if (first_limit < 0) return;
     struct Context {
@@ -45,7 +73,8 @@ void each_candidate(const Scene<Scalar>& scene, const Path& path, Sides sides, d
         c.counters.triangles += static_cast<unsigned>(std::popcount(lanes));
         return c.limit = parameter(c.probe, c.use(cluster, lanes));
     };
-    kernels.traverse(scene.tree.view(), scene.clusters.records.data(), probe, first_limit, visit, &context);
+    if (scene.broadphase == Broadphase::grid) traverse_grid(scene, kernels, probe, first_limit, visit, &context);
+    else kernels.traverse(scene.tree.view(), scene.clusters.records.data(), probe, first_limit, visit, &context);
     counters.nodes += probe.nodes;
     counters.clusters += probe.clusters;
 }

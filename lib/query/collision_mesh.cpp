@@ -130,7 +130,10 @@ MeshStatistics CollisionMesh<Scalar>::statistics() const noexcept {
     s.triangles = scene.triangles.size();
     s.degenerate = scene.degenerate.size();
     s.clusters = scene.cluster_refs.size();
+    s.broadphase = scene.broadphase;
     s.nodes = scene.tree.node_count;
+    if (scene.grid.cell_count() > 0) s.cell_size = scene.grid.cell_size() / scene.frame.unit;
+    s.grid_references = scene.grid.reference_count();
     s.backend = scene.backend->name;
     s.bytes = scene.bytes();
     s.invalid_queries = impl_->invalid_queries.load(std::memory_order_relaxed);
