@@ -110,8 +110,9 @@ class CollisionMesh {
     /// Whether the winding number is not 0.
     [[nodiscard]] bool contains(const Vec3<Scalar>& point, QueryCounters* counters = nullptr) const noexcept;
 
-    /// Why each face near the segment is its first hit or is not, in the order of triangles. For debugging: exact arithmetic for
-    /// each face, and memory for the answer.
+    /// Why each face near the segment is its first hit or is not, in the order of triangles. Near are those whose box is
+    /// no further from the segment's, along each axis, than that is long along its longest. For debugging: it looks at
+    /// all faces, in exact arithmetic where boxes overlap, and takes memory for the answer.
     [[nodiscard]] std::vector<FaceVerdict> explain(const Segment<Scalar>& segment, const QueryOptions& options = {}) const;
 
     /// What is odd about the mesh, and whether it can keep particles in. Computed anew by each call, in about the time of a
