@@ -50,7 +50,7 @@ class CollisionMesh {
 
   public:
     /// Throws `MeshError` when an index is out of range or a coordinate is not finite, naming the face or vertex, and
-    /// when there are more than 2^32 - 2 vertices or triangles; std::invalid_argument where a name or number of an option has no
+    /// when there are more than 2^32 - 2 vertices or 2^28 - 1 triangles; std::invalid_argument where a name or number of an option has no
     /// meaning. A mesh without triangles is fine, and is never hit.
     explicit CollisionMesh(const MeshView<Scalar>& mesh, const BuildOptions& options = {});
     ~CollisionMesh();

@@ -100,6 +100,9 @@ Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& optio
         if (failure) std::rethrow_exception(failure);
     };
     const Executor executor = options.executor ? Executor(in_standard_arithmetic) : Executor();
+    if (mesh.triangles.size() >= k_most_triangles)  // a record's place has 28 bits (cluster/record.h)
+        throw MeshError("the mesh has " + std::to_string(mesh.triangles.size()) + " triangles; " +
+                        std::to_string(k_most_triangles - 1) + " are the most it can have");
     check_mesh(mesh, executor);
     if (!(options.cell_size >= 0))
         throw MeshError("BuildOptions::cell_size is " + std::to_string(options.cell_size) + ", and must be 0 or more");

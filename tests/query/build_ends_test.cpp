@@ -58,6 +58,20 @@ TEST(BuildEnds, for_triangles_as_small_as_numbers_go) {
     }
 }
 
+// No memory is touched: the view only says that there are so many.
+TEST(BuildEnds, at_once_for_more_triangles_than_there_are_places) {
+    const std::vector<V> positions = {V(0, 0, 0), V(1, 0, 0), V(0, 1, 0)};
+    const std::vector<IndexTriple> triangles = {{0, 1, 2}};
+    const MeshView<double> view{positions, std::span(triangles.data(), std::size_t{1} << 28)};
+    try {
+        const CollisionMesh<double> mesh(view);
+        ADD_FAILURE() << "is not refused";
+    } catch (const MeshError& error) {
+        EXPECT_NE(std::string(error.what()).find("268435456"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("268435455"), std::string::npos) << error.what();
+    }
+}
+
 struct CountedCalls {
     mutable int calls = 0;
     void operator()(std::size_t parts, Task task) const {
