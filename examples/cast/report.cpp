@@ -26,9 +26,12 @@ void write_mesh(std::ostream& out, const Report& report) {
     out << ", of them " << grouped(mesh.degenerate) << " of zero area and " << counted(report.odd.duplicates, "duplicate")
         << "; " << counted(mesh.vertices, "vertex", "vertices") << "; "
         << (report.odd.closed() ? "closed" : "not closed: " + counted(report.odd.border_edges, "border edge")) << '\n';
-    out << "grid      " << mesh.grid_levels << (mesh.grid_levels == 1 ? " level" : " levels") << " from cells of " << mesh.cell_size
-        << ", " << per(static_cast<double>(mesh.grid_references), mesh.triangles) << " references and "
-        << per(static_cast<double>(mesh.bytes), mesh.triangles) << " bytes a triangle\n";
+    if (mesh.broadphase == pierce::Broadphase::grid)
+        out << "grid      cells of " << mesh.cell_size << ", " << counted(mesh.grid_references, "reference");
+    else
+        out << "tree      " << counted(mesh.nodes, "node");
+    out << ", " << counted(mesh.clusters, "cluster") << ", " << per(static_cast<double>(mesh.bytes), mesh.triangles)
+        << " bytes a triangle\n";
 }
 
 void write_queries(std::ostream& out, const Report& report, const Options& options) {
@@ -37,7 +40,8 @@ void write_queries(std::ostream& out, const Report& report, const Options& optio
         << grouped(report.segments - report.segments_hit) << " missed";
     if (options.question == Question::all) out << ", " << counted(report.hits, "hit") << " in all";
     if (report.mesh.invalid_queries > 0) out << "; " << grouped(report.mesh.invalid_queries) << " not finite";
-    out << "\nwork      " << per(static_cast<double>(counters.cells), report.segments) << " cells and "
+    out << "\nwork      " << per(static_cast<double>(counters.nodes), report.segments)
+        << (report.mesh.broadphase == pierce::Broadphase::grid ? " cells and " : " nodes and ")
         << per(static_cast<double>(counters.triangles), report.segments) << " triangles a segment; "
         << counted(counters.exact_decisions, "exact decision") << ", " << counted(counters.exact_orders, "exact order")
         << ", " << counted(counters.retreats, "point") << " moved back\n";

@@ -25,6 +25,7 @@ struct MeshStatistics {
     std::size_t triangles = 0;
     std::size_t degenerate = 0; ///< triangles of area exactly zero: kept, and never hit
     std::size_t clusters = 0;        ///< records of up to eight triangles
+    Broadphase broadphase = Broadphase::tree;
     std::size_t nodes = 0;           ///< of the tree; 0 with a grid
     double cell_size = 0;            ///< of the grid; 0 with a tree
     std::size_t grid_references = 0; ///< entries of all its cell lists together
@@ -37,19 +38,20 @@ struct MeshStatistics {
 template <class Scalar>
 using Points = Eigen::Ref<const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>, 0, Eigen::OuterStride<>>;
 
-/// Triangles in uniform grids. Copies what it needs of the mesh.
+/// Triangles in a broadphase (`BuildOptions`). Copies what it needs of the mesh.
 ///
 /// Queries never throw, never assert and end for every input. The answer depends on the mesh and the segment only, to the
-/// last bit: not on the grid, the threads, the machine or the order of queries. They are slow, milliseconds and more, for segments that
-/// reach further than some 10^9 times the size of the mesh: an end at 1e30 is no way to say "far away". So they are in meshes of
-/// double coordinates that are all below 2^-1000, whose triangles share one cell.
+/// last bit: not on the broadphase, the threads, the machine or the order of queries. One end may be as far away as
+/// numbers go; where both are further from the mesh than some 10^9 times its size, boxes are told apart less and less
+/// well, and queries get slower.
 template <class Scalar>
 class CollisionMesh {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
 
   public:
     /// Throws `MeshError` when an index is out of range or a coordinate is not finite, naming the face or vertex, and
-    /// when there are more than 2^32 - 2 vertices or triangles. A mesh without triangles is fine, and is never hit.
+    /// when there are more than 2^32 - 2 vertices or 2^28 - 1 triangles; std::invalid_argument where a name or number of an option has no
+    /// meaning. A mesh without triangles is fine, and is never hit.
     explicit CollisionMesh(const MeshView<Scalar>& mesh, const BuildOptions& options = {});
     ~CollisionMesh();
     CollisionMesh(CollisionMesh&&) noexcept;
@@ -108,8 +110,9 @@ class CollisionMesh {
     /// Whether the winding number is not 0.
     [[nodiscard]] bool contains(const Vec3<Scalar>& point, QueryCounters* counters = nullptr) const noexcept;
 
-    /// Why each face near the segment is its first hit or is not, in the order of triangles. For debugging: exact arithmetic for
-    /// each face, and memory for the answer.
+    /// Why each face near the segment is its first hit or is not, in the order of triangles. Near are those whose box is
+    /// no further from the segment's, along each axis, than that is long along its longest. For debugging: it looks at
+    /// all faces, in exact arithmetic where boxes overlap, and takes memory for the answer.
     [[nodiscard]] std::vector<FaceVerdict> explain(const Segment<Scalar>& segment, const QueryOptions& options = {}) const;
 
     /// What is odd about the mesh, and whether it can keep particles in. Computed anew by each call, in about the time of a

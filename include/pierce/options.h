@@ -15,16 +15,21 @@ namespace pierce {
 
 /// How the triangles near a segment are found. The answers are the same, to the last bit.
 enum class Broadphase : std::uint8_t {
+    automatic,  ///< what the environment variable PIERCE_BROADPHASE says, `tree` or `grid`; without it the tree
     tree,  ///< a tree of boxes with sixteen children a node: the faster one, whatever the mesh and the segments
-    grid,  ///< one uniform grid
+    grid,  ///< one uniform grid, for meshes whose triangles are about as large as one another
 };
 
 /// None of these changes an answer: they trade memory and build time for query time.
 struct BuildOptions {
-    Broadphase broadphase = Broadphase::tree;
-    /// For the grid: the edge of a cell. Zero leaves it to the library, which looks at the triangles' sizes.
+    /// Building throws std::invalid_argument where PIERCE_BROADPHASE is another word.
+    Broadphase broadphase = Broadphase::automatic;
+    /// For the grid: the edge of a cell. Zero leaves it to the library, which looks at the triangles' sizes. It grows
+    /// where the grid would take more memory than `max_grid_bytes`. Building throws MeshError for what is negative or not
+    /// a number.
     double cell_size = 0;
-    /// For the grid: an upper bound for its memory, kept by larger cells. Zero stands for a multiple of the triangles' number.
+    /// For the grid: an upper bound for its memory, kept by larger cells, down to what one cell for all needs. Zero
+    /// stands for a multiple of the triangles' number.
     std::size_t max_grid_bytes = 0;
     /// Which wide kernels to use: `sse2`, `avx2`, `neon`, `plain`. If it is empty, the environment variable PIERCE_BACKEND says, and
     /// without that the machine's fastest. Building throws std::invalid_argument where the machine has none of the name.

@@ -38,11 +38,15 @@ void write_part(Part<Scalar>& part, const CornerReader<Scalar>& reader, std::uin
 }
 
 // The scene's largest extent times this is in [0.5, 1), halved first since the difference of the largest numbers
-// overflows.
+// overflows; but half of the least number is 0. For the largest scenes it is subnormal, which is exact as well: a scene
+// of several units would have larger errors than slab tests allow for.
 template <class Scalar>
 Scalar unit_of(const QuadBox<Scalar>& box) {
     const Scalar half_extent = largest_of<Scalar>(box.high * Scalar(0.5) - box.low * Scalar(0.5));
-    return half_extent > 0 ? power_to_reach(-2, half_extent) : Scalar(1);
+    if (half_extent >= 1) return std::ldexp(Scalar(1), -2 - std::ilogb(half_extent));
+    if (half_extent > 0) return power_to_reach(-2, half_extent);
+    const Scalar extent = largest_of<Scalar>(box.high - box.low);
+    return extent > 0 ? power_to_reach(-1, extent) : Scalar(1);
 }
 
 template <class Scalar>

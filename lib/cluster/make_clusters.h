@@ -9,9 +9,8 @@
 
 namespace pierce::detail {
 
-/// `unit`: the power of two with which the largest extent of what is listed is in [0.5, 1) (near the ends of the number
-/// range as close to that as
-/// powers of two go). `boxes`: one of each cluster, in Morton order, in scene units. Triangles of area zero are
+/// `unit`: the power of two with which the largest extent of what is listed is in [0.5, 1) (for the least numbers as
+/// close to that as powers of two go). `boxes`: one of each cluster, in Morton order, in scene units. Triangles of area zero are
 /// counted, and in no cluster;
 /// the rest has its bounds in `low` and `high` and its largest |coordinate| in `largest`, in the caller's coordinates
 /// (0 if there is none).

@@ -23,6 +23,9 @@
 namespace pierce::detail {
 
 constexpr double k_far = 8;
+/// In scenes of a smaller unit, ends within k_far are up to 2 * k_far / unit >= 2^1024 apart: their difference may
+/// overflow. Clipping does without it.
+constexpr double k_least_unit = 0x1p-1019;
 
 template <class Wide>
 [[gnu::always_inline]] inline double magnitude(double x) {
@@ -79,7 +82,7 @@ template <class Wide, class Scalar>
         probe.direction[k] = sign * ((out - in) * e[k]);
         probe.noise[k] = frame.noise + off;
         const double start = (base == 0 ? from[k] : to[k]);
-        moved_from[k] = start + at * 2 * (e[k] / frame.unit);
+        moved_from[k] = start + (at * 2 * e[k]) / frame.unit;
         moved[k] = probe.direction[k] / frame.unit;
     }
     return true;
@@ -124,7 +127,7 @@ template <class Wide, class Scalar>
     probe.length = 1;
     probe.front_only = front_only;
     probe.back_only = back_only;
-    const bool clipped = !(furthest <= k_far);
+    const bool clipped = !(furthest <= k_far) || frame.unit < k_least_unit;
     if (clipped) [[unlikely]] {
         double moved_from[3];
         double way[3];

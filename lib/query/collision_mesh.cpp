@@ -1,6 +1,7 @@
 // The façade: what may be asked, in which arithmetic, and what is counted.
 #include <pierce/collision_mesh.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -130,7 +131,11 @@ MeshStatistics CollisionMesh<Scalar>::statistics() const noexcept {
     s.triangles = scene.triangles.size();
     s.degenerate = scene.degenerate.size();
     s.clusters = scene.cluster_refs.size();
+    s.broadphase = scene.broadphase;
     s.nodes = scene.tree.node_count;
+    if (scene.grid.cell_count() > 0)  // the one cell of the largest scenes is larger than numbers go
+        s.cell_size = std::min(scene.grid.cell_size() / scene.frame.unit, std::numeric_limits<double>::max());
+    s.grid_references = scene.grid.reference_count();
     s.backend = scene.backend->name;
     s.bytes = scene.bytes();
     s.invalid_queries = impl_->invalid_queries.load(std::memory_order_relaxed);

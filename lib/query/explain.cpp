@@ -66,6 +66,14 @@ FaceVerdict refusal(const Corners& corners, FaceVerdict verdict, const Path& pat
     return verdict;
 }
 
+// The box and all that is no further from it, along each axis, than it is long along its longest.
+Box surroundings(Box box) {
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, box.high[k] - box.low[k]);
+    for (std::size_t k = 0; k < 3; ++k) box.low[k] -= longest, box.high[k] += longest;
+    return box;
+}
+
 }  // namespace
 
 template <class Scalar>
@@ -75,12 +83,14 @@ std::vector<FaceVerdict> explain(const Scene<Scalar>& scene, const Segment<Scala
     First<Scalar> first(scene, path, counters);
     traverse<Certified>(scene, path, options, counters, first);
 
-    // All triangles are looked at: the broadphase does not tell what it left out.
+    // All triangles are looked at: the broadphase does not tell what it left out. Those are named that are no further
+    // away than the segment is long, whichever broadphase there is.
+    const Box near = surroundings(box_of(path));
     std::vector<FaceVerdict> verdicts;
     const auto named = [&](std::uint32_t number) { return FaceVerdict{scene.face_of_number(number), number, Reason::later}; };
     scene.each_triangle([&](TriangleRef triangle) {
         const Corners corners = scene.corners(triangle);
-        if (!overlap(box_of(path), box_of(corners))) return;
+        if (!overlap(near, box_of(corners))) return;
         FaceVerdict verdict = refusal(corners, named(scene.number_of(triangle)), path, options);
         if (verdict.reason == Reason::later) {
             const Candidate candidate{triangle, decide(path, corners, options.sides)};
@@ -91,7 +101,7 @@ std::vector<FaceVerdict> explain(const Scene<Scalar>& scene, const Segment<Scala
         verdicts.push_back(verdict);
     });
     for (const auto& [number, corners] : scene.degenerate)
-        if (overlap(box_of(path), box_of(corners))) verdicts.push_back(refusal(corners, named(number), path, options));
+        if (overlap(near, box_of(corners))) verdicts.push_back(refusal(corners, named(number), path, options));
     std::sort(verdicts.begin(), verdicts.end(), [](const FaceVerdict& x, const FaceVerdict& y) { return x.triangle < y.triangle; });
     return verdicts;
 }

@@ -151,7 +151,7 @@ class InFlight {
 
 template <class Query, class Scalar>
 std::size_t run(Batch<Scalar> batch, typename Query::Out* out) {
-    const bool flies = !batch.scene.empty() && batch.scene.tree.depth <= k_flight_depth;
+    const bool flies = !batch.scene.empty() && batch.scene.broadphase == Broadphase::tree && batch.scene.tree.depth <= k_flight_depth;
     if (flies) InFlight<Query, Scalar>(batch, out).run();
     else one_by_one<Query>(batch, out);
     return batch.hits;

@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <exception>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <unordered_set>
 
 #include <chunks.h>
+#include <cluster/frame.h>
 #include <cluster/make_clusters.h>
 #include <environment.h>
 #include <exact/decide.h>
@@ -50,12 +54,33 @@ void keep_degenerate(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, std::si
     }
 }
 
+Broadphase choose_broadphase(Broadphase wanted) {
+    if (wanted == Broadphase::tree || wanted == Broadphase::grid) return wanted;
+    if (wanted != Broadphase::automatic)
+        throw std::invalid_argument("BuildOptions::broadphase is none of its values, but " +
+                                    std::to_string(static_cast<int>(wanted)));
+    const char* from_environment = std::getenv("PIERCE_BROADPHASE");
+    const std::string_view name = from_environment != nullptr ? from_environment : "";
+    if (name.empty() || name == "tree") return Broadphase::tree;
+    if (name == "grid") return Broadphase::grid;
+    throw std::invalid_argument("no broadphase '" + std::string(name) + "' for PIERCE_BROADPHASE, which takes: tree grid");
+}
+
+template <class Scalar>
+UniformGrid make_grid(std::span<const ClusterBox<Scalar>> boxes, const Frame& frame, const BuildOptions& options,
+                      const Executor& executor) {
+    double size = options.cell_size * frame.unit;
+    // 0 would leave it to the grid.
+    if (options.cell_size > 0) size = std::max(size, std::numeric_limits<double>::min());
+    return UniformGrid::make(boxes, frame, size, options.max_grid_bytes, executor);
+}
+
 }  // namespace
 
 template <class Scalar>
 std::size_t Scene<Scalar>::bytes() const {
     return sizeof(*this) + clusters.records.bytes() + cluster_refs.bytes() + triangles.bytes() + faces.capacity() * sizeof(std::uint32_t) +
-           degenerate.capacity() * sizeof(Degenerate) + tree.bytes();
+           degenerate.capacity() * sizeof(Degenerate) + tree.bytes() + grid.bytes();
 }
 
 template <class Scalar>
@@ -75,9 +100,14 @@ Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& optio
         if (failure) std::rethrow_exception(failure);
     };
     const Executor executor = options.executor ? Executor(in_standard_arithmetic) : Executor();
+    if (mesh.triangles.size() >= k_most_triangles)  // a record's place has 28 bits (cluster/record.h)
+        throw MeshError("the mesh has " + std::to_string(mesh.triangles.size()) + " triangles; " +
+                        std::to_string(k_most_triangles - 1) + " are the most it can have");
     check_mesh(mesh, executor);
-    if (!(options.cell_size >= 0)) throw MeshError("BuildOptions::cell_size must be 0 or more");
+    if (!(options.cell_size >= 0))
+        throw MeshError("BuildOptions::cell_size is " + std::to_string(options.cell_size) + ", and must be 0 or more");
     Scene<Scalar> scene;
+    scene.broadphase = choose_broadphase(options.broadphase);
     scene.backend = &choose_backend(options.backend);
     scene.faces.assign(mesh.faces.begin(), mesh.faces.end());
     scene.vertex_count = mesh.positions.size();
@@ -90,9 +120,11 @@ Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& optio
         for (std::size_t k = 0; k < 3; ++k) scene.bounds.low[k] = built.low[k], scene.bounds.high[k] = built.high[k];
         scene.grain = grain_of<Scalar>(static_cast<double>(built.largest));
         scene.near_bound = near_margin(scene.grain);
-        scene.frame.unit = built.unit;
+        scene.frame = frame_of(built);
         scene.frame.noise = std::max(scene.near_bound * built.unit, std::numeric_limits<double>::min());
-        scene.tree = make_tree(std::span(built.boxes.data(), built.boxes.size()), scene.clusters.empty, scene.frame, executor);
+        const std::span boxes(built.boxes.data(), built.boxes.size());
+        if (scene.broadphase == Broadphase::grid) scene.grid = make_grid<Scalar>(boxes, scene.frame, options, executor);
+        else scene.tree = make_tree(boxes, scene.clusters.empty, scene.frame, executor);
     }
     copy_triangles(mesh, scene, executor);
     keep_degenerate(mesh, scene, built.degenerate);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <cluster/clusters.h>
+#include <grid/uniform_grid.h>
 #include <kernel/backends.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
@@ -35,7 +36,9 @@ template <class Scalar>
 struct Scene {
     Clusters<Scalar> clusters;
     RawArray<ClusterRef> cluster_refs;        ///< all of them
+    Broadphase broadphase = Broadphase::tree; ///< which of the two there is
     Tree tree;
+    UniformGrid grid;
     Frame frame;
     Box bounds;                               ///< of all triangles but those of area zero
     RawArray<IndexTriple> triangles;          ///< the caller's
@@ -88,7 +91,7 @@ struct Scene {
     return box;
 }
 
-/// Checks the mesh (throws `MeshError`), copies it, and builds the broadphase. Not inlined: see engine.h.
+/// Checks mesh and options (throws `MeshError` or std::invalid_argument), copies the mesh, and builds the broadphase. Not inlined: see engine.h.
 template <class Scalar>
 [[nodiscard]] [[gnu::noinline]] Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options);
 

@@ -1,32 +1,12 @@
 // Boxes in scene units to the bounds of a node, outward: each certainly holds what it should.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include <cluster/quad.h>
 #include <node.h>
 
 namespace pierce::detail {
-
-/// The lattice of a scene with the given bounds: its step is the least power of two with which all bounds are in [1,
-/// 65534] (`Lattice::bounds`).
-/// `unit` is set already.
-inline void set_frame(Frame& frame, const QuadBox<double>& scene) {
-    const double extent = largest_of<double>(scene.high - scene.low);
-    for (int k = 0; k < 3; ++k) frame.high[k] = scene.high[k];
-    for (frame.step = std::ldexp(1.0, std::ilogb(extent) - 16);; frame.step *= 2) {
-        bool fits = true;
-        for (int k = 0; k < 3; ++k) {
-            // Far from the origin doubles are farther apart than steps.
-            double low = scene.low[k] - 1.5 * frame.step;
-            while (scene.low[k] - low < 1.25 * frame.step) low = std::nextafter(low, -HUGE_VAL);
-            frame.low[k] = low;
-            fits = fits && scene.high[k] - low <= 65533 * frame.step;
-        }
-        if (fits) return;
-    }
-}
 
 /// Bounds on the scene's lattice. x - low is within 2^-53 of itself, of at most 65536 steps, so within 2^-37 steps;
 /// dividing by a power of two

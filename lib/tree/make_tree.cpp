@@ -183,21 +183,19 @@ Tree grow(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Scalar scene_ar
 }  // namespace
 
 template <class Scalar>
-Tree make_tree(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Frame& frame, const Executor& executor) {
-    QuadBox<Scalar> scene;
-    for (const ClusterBox<Scalar>& box : boxes) scene.add(box_of<Scalar>(box));
-    set_frame(frame,
-              {__builtin_convertvector(scene.low, Quad<double>), __builtin_convertvector(scene.high, Quad<double>)});
+Tree make_tree(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, const Frame& frame, const Executor& executor) {
     if (boxes.size() == 1) {
         Tree tree;
         tree.root = boxes[0].ref;
         return tree;
     }
+    QuadBox<Scalar> scene;
+    for (const ClusterBox<Scalar>& box : boxes) scene.add(box_of<Scalar>(box));
     if (needs_own_frames<Scalar>(boxes, frame)) return grow(boxes, empty, scene.area(), OwnFrames(frame), executor);
     return grow(boxes, empty, scene.area(), Lattice(frame), executor);
 }
 
-template Tree make_tree(std::span<ClusterBox<float>>, ClusterRef, Frame&, const Executor&);
-template Tree make_tree(std::span<ClusterBox<double>>, ClusterRef, Frame&, const Executor&);
+template Tree make_tree(std::span<ClusterBox<float>>, ClusterRef, const Frame&, const Executor&);
+template Tree make_tree(std::span<ClusterBox<double>>, ClusterRef, const Frame&, const Executor&);
 
 }  // namespace pierce::detail

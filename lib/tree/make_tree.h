@@ -10,11 +10,10 @@
 namespace pierce::detail {
 
 /// `boxes`, of which there is at least one, are in Morton order and in scene units, and are put in another order;
-/// places without a child lead to
-/// `empty`. `frame.unit` is given, `low`, `high` and `step` are set. The tree is the same for any executor. Throws only
-/// std::bad_alloc.
+/// places without a child lead to `empty`; `frame` is that of the build (cluster/frame.h). The tree is the same for any
+/// executor. Throws only std::bad_alloc.
 template <class Scalar>
-[[nodiscard]] Tree make_tree(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Frame& frame,
+[[nodiscard]] Tree make_tree(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, const Frame& frame,
                              const Executor& executor);
 
 }  // namespace pierce::detail

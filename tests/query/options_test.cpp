@@ -117,7 +117,7 @@ TEST(Explain, gives_each_face_its_reason) {
     const auto aside = add(V(1.5, 0, 1), V(5, 0, 1), V(5, 4, 1));
     const auto upright = add(V(1, 0, -2), V(1, 4, -2), V(1, 0, 4));  // the segment lies in its plane
     const auto line = add(V(1, 1, 0), V(1, 1, 1), V(1, 1, 2));
-    const CollisionMesh<double> mesh(soup.view(), {.cell_size = 1e300});
+    const CollisionMesh<double> mesh(soup.view());
     std::vector<std::uint8_t> mask(soup.triangles.size(), 1);
     mask[masked_face] = 0;
     const auto accept = [&](const Contact& contact) { return contact.face != refused; };
@@ -141,7 +141,11 @@ TEST(Explain, gives_each_face_its_reason) {
     EXPECT_EQ(reason_for(past, refused), Reason::outside_edge);
     for (const FaceVerdict& verdict : past)
         EXPECT_EQ(verdict.edge, verdict.face == refused ? 1 : verdict.edge);
-    EXPECT_EQ(reason_for(mesh.explain({V(1, 1, -1.8), V(1, 1.5, -1.6)}), below), Reason::apart);
+    // No further away than the segment is long, 0.5.
+    EXPECT_EQ(reason_for(mesh.explain({V(1, 1, -1.75), V(1, 1.5, -1.5)}), below), Reason::apart);
+    const auto near = mesh.explain({V(1, 1, -1.75), V(1, 1.5, -1.5)});
+    EXPECT_EQ(reason_for(near, limit), Reason::in_front);
+    for (const FaceVerdict& verdict : near) EXPECT_NE(verdict.face, later);
     EXPECT_EQ(to_string(Reason::outside_edge), "passes outside an edge");
 }
 

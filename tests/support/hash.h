@@ -20,6 +20,7 @@ class Hash {
             add(word);
         for (int k = 0; k < 3; ++k) {
             add(bits(hit.point[k]));
+            add(bits(hit.position[k]));
             add(bits(hit.normal[k]));
             add(bits(hit.barycentric[k]));
         }

@@ -6,7 +6,7 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
-#include <cluster/make_clusters.h>
+#include <cluster/frame.h>
 #include <exact/decide.h>
 #include <support/cluster_meshes.h>
 #include <support/executors.h>
@@ -115,7 +115,7 @@ struct Built {
 
     Built(const MeshView<Scalar>& mesh, const Executor& executor)
         : build(detail::make_clusters(mesh, detail::has_zero_area, executor)) {
-        frame.unit = build.unit;
+        frame = detail::frame_of(build);
         tree =
             detail::make_tree<Scalar>({build.boxes.data(), build.boxes.size()}, build.clusters.empty, frame, executor);
     }

@@ -107,7 +107,6 @@ void measure_builds(const std::string& mesh, const MeshView<float>& view, int re
     }
 
     const KeptMemory kept;
-    const auto grid = grid_options();
     std::optional<EmbreeScene> low;
     std::optional<EmbreeScene> high;
     builder.embree(low, RTC_BUILD_QUALITY_LOW);
@@ -119,13 +118,13 @@ void measure_builds(const std::string& mesh, const MeshView<float>& view, int re
             const Threads two(2);  // gone before Embree's turn, as threads that look for work take time of the process
             on_two = builder.ours({.executor = Executor(two)}).wall;
         }
-        const double in_grid = grid ? builder.ours(*grid).process : 0;
+        const double in_grid = builder.ours(grid_options()).process;
         const double embree_low = builder.embree_again(*low);
         if (r < 0) continue;
         add(set_name::build, column::pierce, alone.process);
         add(set_name::thread_build, column::pierce, alone.wall);
         add(set_name::thread_build, column::pierce_two_threads, on_two);
-        if (grid) add(set_name::build, column::grid, in_grid);
+        add(set_name::build, column::grid, in_grid);
         add(set_name::build, column::embree_low, embree_low);
         if (r == 0) add(set_name::build, column::embree, builder.embree_again(*high));  // slow: once is enough
     }

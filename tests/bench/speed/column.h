@@ -81,7 +81,6 @@ using SharedMesh = std::shared_ptr<const CollisionMesh<Scalar>>;
 
 template <class Scalar>
 void add_pierce_columns(Columns& columns, const SharedMesh<Scalar>& mesh);
-/// Nothing, as long as the library has no such broadphase.
 void add_grid_columns(Columns& columns, const MeshView<float>& mesh);
 /// `first_hits` for both sides.
 std::unique_ptr<Column> pierce_batch_column(std::string_view name, const SharedMesh<float>& mesh, unsigned threads);

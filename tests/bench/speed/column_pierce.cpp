@@ -124,9 +124,7 @@ void add_pierce_columns<double>(Columns& columns, const SharedMesh<double>& mesh
 }
 
 void add_grid_columns(Columns& columns, const MeshView<float>& mesh) {
-    const auto options = grid_options();
-    if (!options) return;
-    const auto built = std::make_shared<const CollisionMesh<float>>(mesh, *options);
+    const auto built = std::make_shared<const CollisionMesh<float>>(mesh, grid_options());
     columns.push_back(std::make_unique<First<float>>(column::grid, built, Sides::both));
     columns.push_back(pierce_batch_column(column::grid_batch, built, 1));
 }

@@ -20,7 +20,7 @@ void measure_memory(const std::string& mesh, const MeshView<float>& view, Result
         results.add(mesh, set_name::memory, column, static_cast<double>(bytes) / faces);
     };
     add(column::pierce, CollisionMesh<float>(view).statistics().bytes);
-    if (const auto grid = grid_options()) add(column::grid, CollisionMesh<float>(view, *grid).statistics().bytes);
+    add(column::grid, CollisionMesh<float>(view, grid_options()).statistics().bytes);
     const auto embree_bytes = [&](const EmbreeOptions& options) {
         const EmbreeDevice device("threads=1");
         const EmbreeScene scene(device, view, options);
