@@ -60,37 +60,44 @@ QuadBox<Scalar> make_keys(const CornerReader<Scalar>& reader, const QuadBox<Scal
     return all;
 }
 
-void sort_entries(RawArray<std::uint64_t>& entries, const Executor& executor) {
-    const std::size_t count = entries.size();
-    const std::size_t part = part_size(count, executor);
-    RawArray<std::uint64_t> other(count);
-    std::vector<std::uint32_t> next(chunks_of(count, part) * k_digits);
+// One pass; `next` has k_digits places for each part. The shift is a constant: one in a register is read from memory again
+// after each store.
+template <int shift>
+void sort_by_digit(RawArray<std::uint64_t>& entries, RawArray<std::uint64_t>& other, std::vector<std::uint32_t>& next,
+                   std::size_t part, const Executor& executor) {
+    constexpr auto digit = [](std::uint64_t entry) { return entry >> shift & (k_digits - 1); };
     const std::size_t parts = next.size() / k_digits;
-    for (int shift = 32; shift < 62; shift += k_digit_bits) {
-        const auto digit = [shift](std::uint64_t entry) { return entry >> shift & (k_digits - 1); };
-        each_chunk(
-            executor, count,
-            [&](std::size_t p, std::size_t begin, std::size_t end) {
-                std::uint32_t* counts = &next[p * k_digits];
-                std::fill_n(counts, k_digits, 0);
-                const std::uint64_t* from = entries.data();
-                for (std::size_t i = begin; i < end; ++i) ++counts[digit(from[i])];
-            },
-            part);
-        std::uint32_t sum = 0;
-        for (std::size_t d = 0; d < k_digits; ++d)
-            for (std::size_t p = 0; p < parts; ++p) sum += std::exchange(next[p * k_digits + d], sum);
-        each_chunk(
-            executor, count,
-            [&](std::size_t p, std::size_t begin, std::size_t end) {
-                std::uint32_t* places = &next[p * k_digits];
-                const std::uint64_t* from = entries.data();
-                std::uint64_t* to = other.data();
-                for (std::size_t i = begin; i < end; ++i) to[places[digit(from[i])]++] = from[i];
-            },
-            part);
-        std::swap(entries, other);
-    }
+    each_chunk(
+        executor, entries.size(),
+        [&](std::size_t p, std::size_t begin, std::size_t end) {
+            std::uint32_t* counts = &next[p * k_digits];
+            std::fill_n(counts, k_digits, 0);
+            const std::uint64_t* from = entries.data();
+            for (std::size_t i = begin; i < end; ++i) ++counts[digit(from[i])];
+        },
+        part);
+    std::uint32_t sum = 0;
+    for (std::size_t d = 0; d < k_digits; ++d)
+        for (std::size_t p = 0; p < parts; ++p) sum += std::exchange(next[p * k_digits + d], sum);
+    each_chunk(
+        executor, entries.size(),
+        [&](std::size_t p, std::size_t begin, std::size_t end) {
+            std::uint32_t* places = &next[p * k_digits];
+            const std::uint64_t* from = entries.data();
+            std::uint64_t* to = other.data();
+            for (std::size_t i = begin; i < end; ++i) to[places[digit(from[i])]++] = from[i];
+        },
+        part);
+    std::swap(entries, other);
+}
+
+void sort_entries(RawArray<std::uint64_t>& entries, const Executor& executor) {
+    const std::size_t part = part_size(entries.size(), executor);
+    RawArray<std::uint64_t> other(entries.size());
+    std::vector<std::uint32_t> next(chunks_of(entries.size(), part) * k_digits);
+    sort_by_digit<32>(entries, other, next, part, executor);
+    sort_by_digit<32 + k_digit_bits>(entries, other, next, part, executor);
+    sort_by_digit<32 + 2 * k_digit_bits>(entries, other, next, part, executor);
 }
 
 }  // namespace
