@@ -35,6 +35,7 @@ struct Backend {
 // One for each file backend_*.cpp.
 extern const Backend k_sse2;
 extern const Backend k_avx2;
+extern const Backend k_avx512;
 extern const Backend k_neon;
 extern const Backend k_plain;
 

@@ -13,6 +13,9 @@ const std::vector<const Backend*>& backends() {
 #if defined(__x86_64__)
         __builtin_cpu_init();
         const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+        const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                            __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");
+        if (avx512) found.push_back(&k_avx512);
         if (avx2) found.push_back(&k_avx2);
         found.push_back(&k_sse2);
 #elif defined(__aarch64__)

@@ -114,7 +114,7 @@ class FlightRun {
             asm("" : "+r"(at));
             Query& query = *at;
             ++query.probe.clusters;
-            query.lanes = test_cluster<Wide>(query.probe, records_, query.child, query.limit);
+            query.lanes = test_cluster<typename Wide::Triangles>(query.probe, records_, query.child, query.limit);
             found[found_count] = static_cast<unsigned char>(slot);
             found_count += query.lanes != 0 ? 1 : 0;
             to_pop_[to_pop_count_++] = static_cast<unsigned char>(slot);

@@ -10,7 +10,8 @@ namespace pierce::detail {
 
 namespace {
 
-template <class Wide, class Scalar>
+/// `Flights`: what queries in flight go with.
+template <class Wide, class Flights, class Scalar>
 struct KernelsOf {
     static bool make(const Frame& frame, const double* from, const double* to, bool front_only, bool back_only, Probe<Scalar>& probe) {
         return set_probe<Wide>(frame, from, to, front_only, back_only, probe);
@@ -18,16 +19,16 @@ struct KernelsOf {
     static void walk(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit, void* self) {
         traverse<Wide>(tree, records, probe, limit, visit, self);
     }
-    static void go(const TreeView& tree, const Scalar* records, const Flight<Scalar>& flight) { fly<Wide>(tree, records, flight); }
+    static void go(const TreeView& tree, const Scalar* records, const Flight<Scalar>& flight) { fly<Flights>(tree, records, flight); }
     static unsigned test(const Probe<Scalar>& probe, const Scalar* records, ClusterRef cluster, float limit) {
         return test_cluster<Wide>(probe, records, cluster, limit);
     }
     static constexpr ScalarKernels<Scalar> table() { return {make, walk, go, test}; }
 };
 
-template <class Wide>
+template <class Wide, class Flights = Wide>
 constexpr Backend backend_named(const char* name) {
-    return {name, KernelsOf<Wide, float>::table(), KernelsOf<Wide, double>::table()};
+    return {name, KernelsOf<Wide, Flights, float>::table(), KernelsOf<Wide, Flights, double>::table()};
 }
 
 }  // namespace
