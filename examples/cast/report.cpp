@@ -19,13 +19,25 @@ std::string per(double amount, std::size_t count) {
     return each < 100 ? rounded(each, 3) : grouped(static_cast<std::uint64_t>(std::llround(each)));
 }
 
+/// Why a particle could get through.
+std::string openness(const pierce::MeshReport& odd) {
+    if (odd.components == 0) return "empty";
+    if (odd.closed()) return "closed";
+    std::string why;
+    if (odd.border_edges > 0) why = counted(odd.border_edges, "border edge");
+    if (odd.misoriented_edges > 0)
+        why += (why.empty() ? "" : ", ") + counted(odd.misoriented_edges, "edge") +
+               " whose triangles do not face the same way";
+    return "not closed: " + why;
+}
+
 void write_mesh(std::ostream& out, const Report& report) {
     const auto& mesh = report.mesh;
     out << "mesh      " << counted(report.faces, "face");
     if (mesh.triangles != report.faces) out << " cut into " << counted(mesh.triangles, "triangle");
     out << ", of them " << grouped(mesh.degenerate) << " of zero area and " << counted(report.odd.duplicates, "duplicate")
         << "; " << counted(mesh.vertices, "vertex", "vertices") << "; "
-        << (report.odd.closed() ? "closed" : "not closed: " + counted(report.odd.border_edges, "border edge")) << '\n';
+        << openness(report.odd) << '\n';
     if (mesh.broadphase == pierce::Broadphase::grid)
         out << "grid      cells of " << mesh.cell_size << ", " << counted(mesh.grid_references, "reference");
     else

@@ -111,15 +111,20 @@ template <class Scalar>
 MeshReport CollisionMesh<Scalar>::mesh_report() const {
     const StandardArithmetic standard;
     const Scene<Scalar>& scene = impl_->scene;
-    // A vertex that no triangle has is taken for one that some has: nothing is said about it.
-    std::vector<Point> positions(scene.vertex_count, scene.bounds.low);
+    constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
+    std::vector<Point> positions(scene.vertex_count, Point{k_none, k_none, k_none});
     const auto place = [&](std::uint32_t number, const Corners& corners) {
         for (std::size_t k = 0; k < 3; ++k) positions[scene.triangles[number][k]] = corners[k];
     };
     scene.each_triangle([&](TriangleRef triangle) { place(scene.number_of(triangle), scene.corners(triangle)); });
-    for (const auto& [number, corners] : scene.degenerate) place(number, corners);
+    std::vector<std::uint32_t> degenerate;
+    for (const auto& [number, corners] : scene.degenerate) {
+        place(number, corners);
+        degenerate.push_back(number);
+    }
     const std::span triangles(scene.triangles.data(), scene.triangles.size());
-    return report_on(positions, triangles, std::numeric_limits<Scalar>::epsilon());
+    TJunctionCounters counters;
+    return report_on(positions, triangles, degenerate, std::numeric_limits<Scalar>::epsilon(), counters);
 }
 
 template <class Scalar>
