@@ -144,7 +144,7 @@ TEST(Explain, gives_each_face_its_reason) {
     // No further away than the segment is long, 0.5.
     EXPECT_EQ(reason_for(mesh.explain({V(1, 1, -1.75), V(1, 1.5, -1.5)}), below), Reason::apart);
     const auto near = mesh.explain({V(1, 1, -1.75), V(1, 1.5, -1.5)});
-    EXPECT_EQ(reason_for(near, limit), Reason::in_front);
+    EXPECT_EQ(reason_for(near, limit), Reason::behind);
     for (const FaceVerdict& verdict : near) EXPECT_NE(verdict.face, later);
     EXPECT_EQ(to_string(Reason::outside_edge), "passes outside an edge");
 }
