@@ -13,7 +13,6 @@ struct Avx2 {
     static constexpr unsigned width = 8;
     using Float = __m256;
     using Mask = __m256;
-    using Triangles = Avx2;
 
     static Float all(float x) { return _mm256_set1_ps(x); }
     static Float all_bits(std::uint32_t x) { return _mm256_castsi256_ps(_mm256_set1_epi32(static_cast<int>(x))); }

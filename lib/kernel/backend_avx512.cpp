@@ -12,7 +12,6 @@ struct Avx512 {
     static constexpr unsigned width = 16;
     using Float = __m512;
     using Mask = __mmask16;
-    using Triangles = Avx2;
 
     static Float all(float x) { return _mm512_set1_ps(x); }
     static Float all_bits(std::uint32_t x) { return _mm512_castsi512_ps(_mm512_set1_epi32(static_cast<int>(x))); }

@@ -11,7 +11,6 @@ struct Neon {
     static constexpr unsigned width = 4;
     using Float = float32x4_t;
     using Mask = uint32x4_t;
-    using Triangles = Neon;
 
     static Float all(float x) { return vdupq_n_f32(x); }
     static Float all_bits(std::uint32_t x) { return vreinterpretq_f32_u32(vdupq_n_u32(x)); }

@@ -9,7 +9,6 @@ struct Plain {
     static constexpr unsigned width = 1;
     using Float = float;
     using Mask = bool;
-    using Triangles = Plain;
 
     static Float all(float x) { return x; }
     static Float all_bits(std::uint32_t x) {

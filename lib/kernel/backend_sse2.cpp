@@ -11,7 +11,6 @@ struct Sse2 {
     static constexpr unsigned width = 4;
     using Float = __m128;
     using Mask = __m128;
-    using Triangles = Sse2;
 
     static Float all(float x) { return _mm_set1_ps(x); }
     static Float all_bits(std::uint32_t x) { return _mm_castsi128_ps(_mm_set1_epi32(static_cast<int>(x))); }

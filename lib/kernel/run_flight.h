@@ -9,7 +9,8 @@
 
 namespace pierce::detail {
 
-template <class Wide, class AnyNode, class Scalar>
+/// `Triangles`: what clusters are tested with.
+template <class Wide, class Triangles, class AnyNode, class Scalar>
 class FlightRun {
   public:
     FlightRun(const TreeView& tree, const Scalar* records, const Flight<Scalar>& flight)
@@ -114,7 +115,7 @@ class FlightRun {
             asm("" : "+r"(at));
             Query& query = *at;
             ++query.probe.clusters;
-            query.lanes = test_cluster<typename Wide::Triangles>(query.probe, records_, query.child, query.limit);
+            query.lanes = test_cluster<Triangles>(query.probe, records_, query.child, query.limit);
             found[found_count] = static_cast<unsigned char>(slot);
             found_count += query.lanes != 0 ? 1 : 0;
             to_pop_[to_pop_count_++] = static_cast<unsigned char>(slot);
@@ -176,10 +177,10 @@ class FlightRun {
     Query queries_[k_flights];
 };
 
-template <class Wide, class Scalar>
+template <class Wide, class Triangles, class Scalar>
 void fly(const TreeView& tree, const Scalar* records, const Flight<Scalar>& flight) {
-    if (tree.coarse) FlightRun<Wide, CoarseNode, Scalar>(tree, records, flight).run();
-    else FlightRun<Wide, Node, Scalar>(tree, records, flight).run();
+    if (tree.coarse) FlightRun<Wide, Triangles, CoarseNode, Scalar>(tree, records, flight).run();
+    else FlightRun<Wide, Triangles, Node, Scalar>(tree, records, flight).run();
 }
 
 }  // namespace pierce::detail

@@ -10,7 +10,7 @@ namespace pierce::detail {
 
 namespace {
 
-/// `Flights`: what queries in flight go with.
+/// `Flights`: what queries in flight enter nodes with.
 template <class Wide, class Flights, class Scalar>
 struct KernelsOf {
     static bool make(const Frame& frame, const double* from, const double* to, bool front_only, bool back_only, Probe<Scalar>& probe) {
@@ -19,7 +19,7 @@ struct KernelsOf {
     static void walk(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit, void* self) {
         traverse<Wide>(tree, records, probe, limit, visit, self);
     }
-    static void go(const TreeView& tree, const Scalar* records, const Flight<Scalar>& flight) { fly<Flights>(tree, records, flight); }
+    static void go(const TreeView& tree, const Scalar* records, const Flight<Scalar>& flight) { fly<Flights, Wide>(tree, records, flight); }
     static unsigned test(const Probe<Scalar>& probe, const Scalar* records, ClusterRef cluster, float limit) {
         return test_cluster<Wide>(probe, records, cluster, limit);
     }
