@@ -37,6 +37,23 @@ class First {
     bool found_ = false;
 };
 
+/// The first but those of one triangle and those that `passed(triangle)` says are known already.
+template <class Scalar, class Passed>
+class FirstOther : public First<Scalar> {
+  public:
+    FirstOther(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters, const Passed& passed, TriangleRef own)
+        : First<Scalar>(scene, path, counters), passed_(passed), own_(own) {}
+
+    [[nodiscard]] bool wants(TriangleRef triangle) const { return triangle != own_; }
+    void add() {
+        if (!passed_(this->room().triangle)) First<Scalar>::add();
+    }
+
+  private:
+    const Passed& passed_;
+    TriangleRef own_;
+};
+
 /// Stops at any hit, but for those of one triangle and those that `passed(triangle)` says are known already.
 template <class Passed>
 class Any {
