@@ -347,10 +347,10 @@ void expect_rest(int steps, double height, const V& up) {
     std::cout << "height " << height << ": exact room entered " << entries(halves[0]) << " and " << entries(halves[1]) << " times, values "
               << halves[1].exact_values << ", sides " << halves[1].exact_sides << '\n';
     EXPECT_LE(entries(halves[1]), entries(halves[0]) * 6 / 5 + 20);
-    // In double a fraction of a few units in the last place over the whole takes one exact measure; and the side of a place that is as far off as the
-    // start, within what doubles tell, two at most. The decisions themselves are double-double's.
+    // The decisions are double-double's. In double the fraction of a start so near takes one exact measure; on a tilted floor through the origin a position
+    // close to 0 one more, and places as far off as the start, within what double-double tells, up to four exact sides.
     EXPECT_LE(halves[0].exact_decisions + halves[1].exact_decisions, static_cast<std::uint64_t>(steps) / 20);
-    EXPECT_LE(static_cast<double>(entries(halves[0]) + entries(halves[1])), (sizeof(Scalar) == 4 ? 0.02 : 3.02) * steps);
+    EXPECT_LE(static_cast<double>(entries(halves[0]) + entries(halves[1])), (sizeof(Scalar) == 4 ? 0.02 : 6.02) * steps);
 }
 TEST(Place, resting_particles_stay_where_they_are) {
     for (const double height : {0.0, 1.0, 1000.0})
