@@ -10,7 +10,8 @@
 
 namespace pierce::detail {
 
-/// What place() asks about the ways from a hit's start to other points. Its own triangle is no matter: place() has seen to that.
+/// What place() asks about the ways from a hit's start to other points. Its own triangle is no matter: place() has seen
+/// to that.
 template <class Kernel, class Scalar, class Passed>
 struct OtherWays {
     const Scene<Scalar>& scene;
@@ -41,7 +42,8 @@ struct OtherWays {
         const Path way{path.from, point};
         FirstOther<Scalar, Passed> first(scene, way, counters, passed, own);
         if (list != nullptr && list->complete) {
-            for (unsigned i = 0; i < list->count; ++i) test_triangle<Kernel>(scene, way, list->triangles[i], options, counters, first);
+            for (unsigned i = 0; i < list->count; ++i)
+                test_triangle<Kernel>(scene, way, list->triangles[i], options, counters, first);
         } else {
             traverse<Kernel>(scene, way, options, counters, first);
         }
@@ -52,9 +54,9 @@ struct OtherWays {
     }
 };
 
-/// Writes the hit of a candidate, to where the caller wants it: a copy of what was just written number by number would wait for memory.
-/// `passed(triangle)` says which triangles are hit strictly before it, and so on the way to any point near it. With a complete
-/// list of the query's triangles nothing else is asked again.
+/// Writes the hit of a candidate, to where the caller wants it: a copy of what was just written number by number would
+/// wait for memory. `passed(triangle)` says which triangles are hit strictly before it, and so on the way to any point
+/// near it. With a complete list of the query's triangles nothing else is asked again.
 template <class Kernel, class Scalar, class Passed>
 void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Passed& passed, const QueryOptions& options,
             QueryCounters& counters, const Shortlist* list, Hit<Scalar>& hit) {

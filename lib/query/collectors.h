@@ -73,9 +73,9 @@ class Any {
     bool found_ = false;
 };
 
-/// Counts every hit and keeps the first ones in `out`: as a heap with the last of them on top (Williams 1964), so that the time is n log n in the
-/// hits met; `sort` puts them in order. Of each it fills what it needs itself: the place of the triangle (cluster in `triangle`, lane in `face`),
-/// feature, side, at_start and exact_fraction.
+/// Counts every hit and keeps the first ones in `out`: as a heap with the last of them on top (Williams 1964), so that
+/// the time is n log n in the hits met; `sort` puts them in order. Of each it fills what it needs itself: the place of
+/// the triangle (cluster in `triangle`, lane in `face`), feature, side, at_start and exact_fraction.
 template <class Scalar>
 class All {
   public:

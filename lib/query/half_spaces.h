@@ -1,5 +1,6 @@
-// Where a point may lie near a hit, as half-spaces around the true point, in units of the search: which of their common points is nearest, and
-// the half-spaces that lead out from behind a triangle. Nothing here is certain: whether a place is clear is asked of the mesh.
+// Where a point may lie near a hit, as half-spaces around the true point, in units of the search: which of their common
+// points is nearest, and the half-spaces that lead out from behind a triangle. Nothing here is certain: whether a place
+// is clear is asked of the mesh.
 #pragma once
 
 #include <algorithm>
@@ -11,13 +12,18 @@
 
 namespace pierce::detail {
 
-[[nodiscard]] inline double dot_product(const Point& p, const Point& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+[[nodiscard]] inline double dot_product(const Point& p, const Point& q) {
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+}
 [[nodiscard]] inline Point cross_product(const Point& p, const Point& q) {
     return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
 }
-[[nodiscard]] inline Point difference_of(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
+[[nodiscard]] inline Point difference_of(const Point& p, const Point& q) {
+    return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+}
 
-/// `vector` made one of length 1, by way of one whose largest component is 1, which no exponent troubles; false for 0, NaN and what is infinite.
+/// `vector` made one of length 1, by way of one whose largest component is 1, which no exponent troubles; false for 0,
+/// NaN and what is infinite.
 [[nodiscard]] inline bool normalise(Point& vector) {
     const double most = std::max({std::abs(vector[0]), std::abs(vector[1]), std::abs(vector[2])});
     if (!(most > 0) || !std::isfinite(most)) return false;
@@ -41,11 +47,13 @@ class HalfSpaces {
     void push(const HalfSpace& half_space) { all_[count_++] = half_space; }
     void pop() { --count_; }
 
-    /// The point of all of them that is nearest to 0, within a hundredth or so; false where it is further than `reach`, or is not found in 64 sweeps: two
-    /// that meet at an angle a come nearer by (cos a)^2 a sweep, so of those at 15 degrees or more it is, and of those with nothing in common not.
+    /// The point of all of them that is nearest to 0, within a hundredth or so; false where it is further than `reach`,
+    /// or is not found in 64 sweeps: two that meet at an angle a come nearer by (cos a)^2 a sweep, so of those at 15
+    /// degrees or more it is, and of those with nothing in common not.
     ///
-    /// Hildreth's method (1957): x = sum of l_i normal_i, and one l_i after the other is set to what its own half-space asks for, but not below 0.
-    /// It climbs the dual function sum l_i least_i - x . x / 2, which is nowhere above half the square that is looked for.
+    /// Hildreth's method (1957): x = sum of l_i normal_i, and one l_i after the other is set to what its own half-space
+    /// asks for, but not below 0. It climbs the dual function sum l_i least_i - x . x / 2, which is nowhere above half
+    /// the square that is looked for.
     [[nodiscard]] bool nearest(double reach, Point& x) const {
         std::array<double, k_most> share{};
         x = {};
@@ -89,14 +97,15 @@ struct Around {
     }
 };
 
-/// The ways out for a way from `from` to about `around` that a triangle stops: back to the start's side of its plane, or past an edge, that is, out of
-/// the pyramid that the triangle and `from` span. What is clear of it lies in one of them.
+/// The ways out for a way from `from` to about `around` that a triangle stops: back to the start's side of its plane,
+/// or past an edge, that is, out of the pyramid that the triangle and `from` span. What is clear of it lies in one of
+/// them.
 struct WaysOut {
     std::array<HalfSpace, 4> all;
     std::size_t count = 0;
 
-    /// `decision`: of the hit on that triangle. Seen from its front the corners are counter-clockwise; what starts on its plane sees it edge-on, and only
-    /// its plane leads out.
+    /// `decision`: of the hit on that triangle. Seen from its front the corners are counter-clockwise; what starts on
+    /// its plane sees it edge-on, and only its plane leads out.
     WaysOut(const Corners& corners, const Decision& decision, const Point& from, const Around& around) {
         const double side = decision.side == Sides::front ? 1 : -1;
         const auto nearer = [&](const Point& p, const Point& q) {

@@ -6,7 +6,8 @@
 
 namespace pierce::detail {
 
-/// Calls `visit(x, y, z)` until it says true, and says whether it did; in a ball of 12 there are 7,153 points, and some 30,000 pairs are looked at.
+/// Calls `visit(x, y, z)` until it says true, and says whether it did; in a ball of 12 there are 7,153 points, and some
+/// 30,000 pairs are looked at.
 template <class Visit>
 bool each_in_ball(double reach, Visit&& visit) {
     const int last = static_cast<int>(reach * reach);

@@ -1,15 +1,21 @@
 // The place of a hit: its true position, and the verified point.
 //
-// The verified point keeps to the start's side of the face, a grain off its plane, or as far off as the start was if that is less. On the plane itself,
-// or nearer than what rounding does to any point of the mesh, a point would be behind it by the next rounding, or could not leave. So the first
-// point to be tried is the true one P, moved off by a grain along the normal, rounded; then its coordinates are rounded outwards, so that no term of
-// n . (point - P) lacks of the grain. Near edges and corners of other faces neither may be clear. Then the triangle that stops the way says where
-// it may be: on the start's side of its plane or past one of its three edges, seen from the start. Each of these is a half-space; the nearest point of
-// those chosen so far is tried, and what stops the way to that adds another choice. All choices are gone through in the order of their distances,
-// but those that lead further than a grain and eight units: if none is left, no such place is clear. (Two planes at less than 19.5 degrees leave none in
-// their corner: 4 / sin 19.5 = 12.) Only then points back along the way from the start are tried.
-// Cost: each half-space takes 64 sweeps of at most 8, a few microseconds in the worst case; each try is a query among the triangles of the shortlist;
-// `k_most_tries` bounds both.
+// The verified point keeps to the start's side of the face, a grain off its plane, or as far off as the start was if
+// that is less. On the plane itself, or nearer than what rounding does to any point of the mesh, a point would be
+// behind it by the next rounding, or could not leave. So the first point to be tried is the true one P, moved off by a
+// grain along the normal, rounded; then its coordinates are rounded outwards, so that no term of n . (point - P) lacks
+// of the grain. Near edges and corners of other faces neither may be clear. Then the triangle that stops the way says
+// where it may be: on the start's side of its plane or past one of its three edges, seen from the start. Each of these
+// is a half-space; the nearest point of those chosen so far is tried, and what stops the way to that adds another
+// choice. All choices are gone through in the order of their distances, but those that lead further than a grain and
+// eight units: first with room for any rounding, then with none but all eight ways to round. (Two planes at less than
+// 19.5 degrees leave no place in their corner: 4 / sin 19.5 = 12.) Where that second round tried something and failed,
+// each place on a lattice of one unit is tried; and only then points back along the way from the start.
+//
+// Cost: a half-space takes 64 sweeps of at most 8, a few microseconds in the worst case; a try is a query among the
+// triangles of the shortlist. There are 2 * `k_most_tries` + 8 tries at most, and the lattice has 7,153 places, of which
+// those a grain off the plane are asked about (some 1,900). That happens a few times in 10^5 hits on bumpy meshes. What
+// this does not find are clear places that hold no point of that lattice and are missed by all eight roundings.
 #pragma once
 
 #include <algorithm>
@@ -29,10 +35,13 @@ namespace pierce::detail {
 template <class Scalar, class Ways>
 class PlaceSearch {
   public:
-    /// `spot`: null where nothing but exact arithmetic is certain; `position` is the true point rounded, `normal` the face's.
-    PlaceSearch(const Path& path, const Corners& corners, Sides side, double grain, const Spot* spot, const Point& position, const Point& normal,
+    /// `spot`: null where nothing but exact arithmetic is certain; `position` is the true point rounded, `normal` the
+    /// face's.
+    PlaceSearch(const Path& path, const Corners& corners, Sides side, double grain, const Spot* spot,
+                const Point& position, const Point& normal,
                 QueryCounters& counters, const Ways& ways)
-        : path_(path), corners_(corners), grain_(grain), unit_(grain / k_grain_units), spot_(spot), counters_(counters), ways_(ways) {
+        : path_(path), corners_(corners), grain_(grain), unit_(grain / k_grain_units), spot_(spot), counters_(counters),
+          ways_(ways) {
         const Point& n = spot != nullptr ? spot->normal : normal;
         length_ = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         reach_ = k_reach_units - (spot != nullptr ? 0.125 : 1);
@@ -58,7 +67,8 @@ class PlaceSearch {
 
     /// Sets `fraction` and `point`; `exact` is the true fraction, rounded once. Returns how many points were not clear.
     int find(double exact, Hit<Scalar>& hit) {
-        // Below the true fraction, which `exact` is within CertifiedFace::k_tolerance of, and one rounding; two steps where it is denormal.
+        // Below the true fraction, which `exact` is within CertifiedFace::k_tolerance of, and one rounding; two steps
+        // where it is denormal.
         const double below = std::max(0.0, exact * (1 - (sizeof(Scalar) == 4 ? 0x1p-28 : 0x1p-52)) - 0x1p-1073);
         if (find_near(hit)) {
             hit.fraction = same_as_start(hit) ? Scalar{0} : rounded_down<Scalar>(below);
@@ -70,7 +80,8 @@ class PlaceSearch {
 
   private:
     bool find_near(Hit<Scalar>& hit) {
-        if (try_near(off_, k_to_nearest, hit) == Tried::clear || try_near(off_, k_outwards, hit) == Tried::clear) return true;
+        if (try_near(off_, k_to_nearest, hit) == Tried::clear) return true;
+        if (try_near(off_, k_outwards, hit) == Tried::clear) return true;
         Around around{high_, low_, unit_, {}};
         for (std::size_t k = 0; k < 3; ++k)
             around.rounding[k] = last_place<Scalar>(std::abs(high_[k]) + k_reach_units * unit_) / unit_ / 2;
@@ -89,7 +100,8 @@ class PlaceSearch {
         return tries_ != so_far && find_in_ball(hit);
     }
 
-    // The last resort for corners whose half-spaces have a place that is too thin for any rounding tried: each point of a lattice of one unit.
+    // The last resort for corners whose half-spaces have a place that is too thin for any rounding tried: each point of
+    // a lattice of one unit.
     bool find_in_ball(Hit<Scalar>& hit) {
         return each_in_ball(k_reach_units, [&](int x, int y, int z) {
             const Point by{x * unit_, y * unit_, z * unit_};
@@ -97,15 +109,18 @@ class PlaceSearch {
             Point point{};
             double square = 0;
             for (std::size_t k = 0; k < 3; ++k) {
-                point[k] = static_cast<double>(static_cast<Scalar>(static_cast<double>(static_cast<Scalar>(high_[k])) + by[k]));
+                const auto near = static_cast<double>(static_cast<Scalar>(high_[k]));
+                point[k] = static_cast<double>(static_cast<Scalar>(near + by[k]));
                 const double off = ((point[k] - high_[k]) - low_[k]) / unit_;
                 square += off * off;
             }
-            return square <= reach_ * reach_ && is_finite_and_far(point) && ways_.clear(point, true) && take(point, true, hit) == Tried::clear;
+            return square <= reach_ * reach_ && is_finite_and_far(point) && ways_.clear(point, true) &&
+                   take(point, true, hit) == Tried::clear;
         });
     }
 
-    // Tries the nearest point of the half-spaces; if a triangle is in the way, goes on with each way out, the nearest first.
+    // Tries the nearest point of the half-spaces; if a triangle is in the way, goes on with each way out, the nearest
+    // first.
     bool find_clear(const Around& around, HalfSpaces& chosen, Hit<Scalar>& hit) {
         Point x{};
         if (tries_ >= most_tries_ || !chosen.nearest(reach_, x)) return false;
@@ -125,7 +140,8 @@ class PlaceSearch {
             chosen.pop();
         }
         for (std::size_t n = 0; n < ways.count; ++n) {
-            const auto least = static_cast<std::size_t>(std::min_element(cost.begin(), cost.begin() + ways.count) - cost.begin());
+            const auto* const nearest = std::min_element(cost.begin(), cost.begin() + ways.count);
+            const auto least = static_cast<std::size_t>(nearest - cost.begin());
             if (cost[least] == HUGE_VAL) return false;
             cost[least] = HUGE_VAL;
             chosen.push(ways.all[least]);
@@ -135,13 +151,15 @@ class PlaceSearch {
         return false;
     }
 
-    // Whether a triangle is in the way to all of them that are fit: `blocker_`, which stops the first. If not, `found_` says whether a way is clear.
+    // Whether a triangle is in the way to all of them that are fit: `blocker_`, which stops the first. If not, `found_`
+    // says whether a way is clear.
     bool try_roundings(const Point& by, Hit<Scalar>& hit) {
         found_ = false;
         bool stopped = false;
         Corners blocker{};
         Decision blocked;
-                for (unsigned rounding = k_to_nearest; rounding <= k_outwards && !(stopped && !thin_); rounding += thin_ ? 1 : k_outwards) {
+                const unsigned step = thin_ ? 1 : k_outwards;
+        for (unsigned rounding = k_to_nearest; rounding <= k_outwards && (thin_ || !stopped); rounding += step) {
             const Tried tried = try_near(by, rounding, hit);
             if (tried == Tried::clear) found_ = true;
             if (found_) return false;
@@ -168,7 +186,8 @@ class PlaceSearch {
         Point point = rounded_to<Scalar>({high_[0] + by[0], high_[1] + by[1], high_[2] + by[2]});
         for (std::size_t k = 0; k < 3; ++k) {
             const double beyond = (point[k] - high_[k]) - by[k];
-            const bool turned = rounding == k_outwards ? (beyond < 0 && out_[k] > 0) || (beyond > 0 && out_[k] < 0) : (rounding >> k & 1U) != 0 && beyond != 0;
+            const bool inwards = (beyond < 0 && out_[k] > 0) || (beyond > 0 && out_[k] < 0);
+            const bool turned = rounding == k_outwards ? inwards : (rounding >> k & 1U) != 0 && beyond != 0;
             if (turned) point[k] = next_to<Scalar>(point[k], -beyond);
             const double x = ((point[k] - high_[k]) - low_[k]) / unit_;
             square += x * x;
@@ -216,9 +235,10 @@ class PlaceSearch {
         return point == path_.from || is_far(point);
     }
 
-    // On the start's side, and a grain off the plane or as far as the start. The first by n . (point - P), P being in the plane, the second by
-    // n . (point - from): each term is off by what n and P may be off, and 2^-51 of itself for its roundings and the sum's. (Where each term of the
-    // second has a factor that is exactly 0, so is it.) Only what neither proves nor refutes is left to exact arithmetic.
+    // On the start's side, and a grain off the plane or as far as the start. The first by n . (point - P), P being in
+    // the plane, the second by n . (point - from): each term is off by what n and P may be off, and 2^-51 of itself for
+    // its roundings and the sum's. (Where each term of the second has a factor that is exactly 0, so is it.) Only what
+    // neither proves nor refutes is left to exact arithmetic.
     bool is_far(const Point& point) {
         if (spot_ != nullptr) {
             double from_plane = 0;
@@ -262,7 +282,8 @@ class PlaceSearch {
     int most_tries_ = k_most_tries;
     bool thin_ = false;
     bool found_ = false;
-    double reach_;  ///< less what the true point may be off: a sixteenth of a unit a coordinate, or half a unit where it was only rounded
+    /// Less what the true point may be off: a sixteenth of a unit a coordinate, or half a unit where it was only rounded.
+    double reach_;
     double length_;
     double off_length_ = 0;
     Corners blocker_{};
@@ -275,15 +296,15 @@ class PlaceSearch {
     int tries_ = 0;
 };
 
-/// Sets `position`, `point` and `fraction` of a hit: the segment from -> point has no hit, none of the hit's own triangle, from whose plane the point
-/// keeps off, and none of any other, which `ways` says:
-///   bool stops(point, corners, decision)   whether a triangle stops the way to a point within `near_margin(grain)` of the true one in each coordinate;
-///                                      if so, the corners of the first, and how it is hit
+/// Sets `position`, `point` and `fraction` of a hit: the segment from -> point has no hit, none of the hit's own
+/// triangle, from whose plane the point keeps off, and none of any other, which `ways` says:
+///   bool stops(point, corners, decision)   whether a triangle stops the way to a point within `near_margin(grain)` of
+///                                          the true one in each coordinate; if so, the corners of the first, and how it is hit
 ///   bool clear(point, near)            whether none stops the way to a point, near as above or any
 /// `from` itself needs no proof. `exact`: the true fraction, rounded once. Returns how many points were not clear.
 template <class Scalar, class Face, class Ways>
-int place(const Path& path, const Corners& corners, const Decision& decision, double grain, double exact, Face& face, QueryCounters& counters,
-          const Ways& ways, Hit<Scalar>& hit) {
+int place(const Path& path, const Corners& corners, const Decision& decision, double grain, double exact, Face& face,
+          QueryCounters& counters, const Ways& ways, Hit<Scalar>& hit) {
     Point position = path.from;
     int tries = 0;
     if (decision.at_start) {
@@ -296,7 +317,8 @@ int place(const Path& path, const Corners& corners, const Decision& decision, do
             ++counters.exact_values;
             position = exact_position<Scalar>(path, corners);
         }
-        PlaceSearch<Scalar, Ways> search(path, corners, decision.side, grain, located.spot ? &spot : nullptr, position, face.normal(), counters, ways);
+        PlaceSearch<Scalar, Ways> search(path, corners, decision.side, grain, located.spot ? &spot : nullptr, position,
+                                         face.normal(), counters, ways);
         tries = search.find(exact, hit);
     }
     for (int k = 0; k < 3; ++k) hit.position[k] = static_cast<Scalar>(position[static_cast<std::size_t>(k)]);
