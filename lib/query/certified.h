@@ -1,7 +1,7 @@
 // What is certified about a triangle that the wide kernels leave, and what the caller's own options say of it.
 #pragma once
 
-#include <kernel/filter.h>
+#include <kernel/finer_filter.h>
 #include <query/candidate.h>
 #include <query/values.h>
 
@@ -31,7 +31,8 @@ struct Certified {
     /// Whether the path hits, unless the hit lies beyond `limit`.
     static bool test(const Corners& corners, TriangleRef triangle, const Path& path, Sides sides, double limit,
                      QueryCounters& counters, Candidate& candidate) {
-        const Filtered filtered = filter(corners, path, sides);
+        Filtered filtered = filter(corners, path, sides);
+        if (filtered.verdict == Verdict::doubtful) filtered = finer_filter(corners, path, sides);
         if (filtered.verdict == Verdict::miss || filtered.earliest > limit) return false;
         if (filtered.verdict == Verdict::hit) {
             // Certain of a hit, the filter is certain that it is on neither edge nor corner, and that it is not at the start.

@@ -37,6 +37,23 @@ class First {
     bool found_ = false;
 };
 
+/// The first but those of one triangle and those that `passed(triangle)` says are known already.
+template <class Scalar, class Passed>
+class FirstOther : public First<Scalar> {
+  public:
+    FirstOther(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters, const Passed& passed, TriangleRef own)
+        : First<Scalar>(scene, path, counters), passed_(passed), own_(own) {}
+
+    [[nodiscard]] bool wants(TriangleRef triangle) const { return triangle != own_; }
+    void add() {
+        if (!passed_(this->room().triangle)) First<Scalar>::add();
+    }
+
+  private:
+    const Passed& passed_;
+    TriangleRef own_;
+};
+
 /// Stops at any hit, but for those of one triangle and those that `passed(triangle)` says are known already.
 template <class Passed>
 class Any {
@@ -56,9 +73,9 @@ class Any {
     bool found_ = false;
 };
 
-/// Counts every hit and keeps the first ones in `out`: as a heap with the last of them on top (Williams 1964), so that the time is n log n in the
-/// hits met; `sort` puts them in order. Of each it fills what it needs itself: the place of the triangle (cluster in `triangle`, lane in `face`),
-/// feature, side, at_start and exact_fraction.
+/// Counts every hit and keeps the first ones in `out`: as a heap with the last of them on top (Williams 1964), so that
+/// the time is n log n in the hits met; `sort` puts them in order. Of each it fills what it needs itself: the place of
+/// the triangle (cluster in `triangle`, lane in `face`), feature, side, at_start and exact_fraction.
 template <class Scalar>
 class All {
   public:

@@ -1,10 +1,21 @@
 // The place of a hit: its true position, and the verified point.
 //
-// The verified point keeps to the start's side of the face, a grain off its plane, or as far off as the start was if that is less. On the plane itself,
-// or nearer than what rounding does to any point of the mesh, a point would be behind it by the next rounding, or could not leave. So the first
-// point to be tried is the true one P, moved off by a grain along the normal, rounded; then its coordinates are rounded outwards, so that no term of
-// n . (point - P) lacks of the grain; then places around it, within eight units in the last place of the mesh's largest coordinate, which are
-// clear where edges and corners of other faces are not; and only then points back along the way from the start.
+// The verified point keeps to the start's side of the face, a grain off its plane, or as far off as the start was if
+// that is less. On the plane itself, or nearer than what rounding does to any point of the mesh, a point would be
+// behind it by the next rounding, or could not leave. So the first point to be tried is the true one P, moved off by a
+// grain along the normal, rounded; then its coordinates are rounded outwards, so that no term of n . (point - P) lacks
+// of the grain. Near edges and corners of other faces neither may be clear. Then the triangle that stops the way says
+// where it may be: on the start's side of its plane or past one of its three edges, seen from the start. Each of these
+// is a half-space; the nearest point of those chosen so far is tried, and what stops the way to that adds another
+// choice. All choices are gone through in the order of their distances, but those that lead further than a grain and
+// eight units: first with room for any rounding, then with none but all eight ways to round. (Two planes at less than
+// 19.5 degrees leave no place in their corner: 4 / sin 19.5 = 12.) Where that second round tried something and failed,
+// each place on a lattice of one unit is tried; and only then points back along the way from the start.
+//
+// Cost: a half-space takes 64 sweeps of at most 8, a few microseconds in the worst case; a try is a query among the
+// triangles of the shortlist. There are 2 * `k_most_tries` + 8 tries at most, and the lattice has 7,153 places, of which
+// those a grain off the plane are asked about (some 1,900). That happens a few times in 10^5 hits on bumpy meshes. What
+// this does not find are clear places that hold no point of that lattice and are missed by all eight roundings.
 #pragma once
 
 #include <algorithm>
@@ -13,58 +24,27 @@
 
 #include <exact/place.h>
 #include <pierce/hit.h>
+#include <query/grain.h>
+#include <query/half_spaces.h>
+#include <query/lattice_ball.h>
 #include <query/values.h>
 
 namespace pierce::detail {
 
-/// A unit in the last place of the mesh's largest |coordinate|, and the grain, in units of that.
-///
-/// Two units are what rounding a point of the mesh may do to its distance from a plane (half a unit a coordinate, sqrt(3) / 2 in all, for the point, and the
-/// same for a target projected onto the plane). Measured: see tests/query/place_test.cpp.
-inline constexpr double k_grain_units = 4;
-
-template <class Scalar>
-[[nodiscard]] double last_place(double largest) {
-    using Limits = std::numeric_limits<Scalar>;
-    const double unit = largest > 0 ? static_cast<double>(Limits::epsilon()) * std::ldexp(1.0, std::ilogb(largest)) : 0;
-    return std::max(unit, static_cast<double>(Limits::denorm_min()));
-}
-template <class Scalar>
-[[nodiscard]] double grain_of(double largest) {
-    return k_grain_units * last_place<Scalar>(largest);
-}
-/// How far from the true intersection a point may be that `clear(point, true)` is asked about.
-[[nodiscard]] constexpr double near_margin(double grain) { return grain * (1 + 8 / k_grain_units); }
-
-template <class Scalar>
-[[nodiscard]] Scalar rounded_down(double x) {
-    const auto near = static_cast<Scalar>(x);
-    return static_cast<double>(near) > x ? std::nextafter(near, -std::numeric_limits<Scalar>::infinity()) : near;
-}
-
-template <class Scalar>
-[[nodiscard]] Point rounded_to(const Point& point) {
-    const auto rounded = [](double x) { return static_cast<double>(static_cast<Scalar>(x)); };
-    return {rounded(point[0]), rounded(point[1]), rounded(point[2])};
-}
-
-/// The number next to `x` in the direction of `sign`, which is not 0.
-template <class Scalar>
-[[nodiscard]] double next_to(double x, double sign) {
-    constexpr Scalar k_infinity = std::numeric_limits<Scalar>::infinity();
-    return static_cast<double>(std::nextafter(static_cast<Scalar>(x), sign > 0 ? k_infinity : -k_infinity));
-}
-
 /// Looks for the verified point of a hit that does not start on its face.
-template <class Scalar, class Clear>
+template <class Scalar, class Ways>
 class PlaceSearch {
   public:
-    /// `spot`: null where nothing but exact arithmetic is certain; `position` is the true point rounded, `normal` the face's.
-    PlaceSearch(const Path& path, const Corners& corners, Sides side, double grain, const Spot* spot, const Point& position, const Point& normal,
-                QueryCounters& counters, Clear& clear)
-        : path_(path), corners_(corners), grain_(grain), unit_(grain / k_grain_units), spot_(spot), counters_(counters), clear_(clear) {
+    /// `spot`: null where nothing but exact arithmetic is certain; `position` is the true point rounded, `normal` the
+    /// face's.
+    PlaceSearch(const Path& path, const Corners& corners, Sides side, double grain, const Spot* spot,
+                const Point& position, const Point& normal,
+                QueryCounters& counters, const Ways& ways)
+        : path_(path), corners_(corners), grain_(grain), unit_(grain / k_grain_units), spot_(spot), counters_(counters),
+          ways_(ways) {
         const Point& n = spot != nullptr ? spot->normal : normal;
         length_ = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        reach_ = k_reach_units - (spot != nullptr ? 0.125 : 1);
         double off = grain;
         const double sign = side == Sides::front ? 1 : -1;
         if (spot != nullptr) {
@@ -77,6 +57,7 @@ class PlaceSearch {
             for (std::size_t k = 0; k < 3; ++k) distance += n[k] / length_ * (path.from[k] - position[k]);
             off = std::min(grain, std::abs(distance));
         }
+        off_length_ = off;
         for (std::size_t k = 0; k < 3; ++k) {
             out_[k] = sign * n[k];
             unit_normal_[k] = out_[k] / length_;
@@ -86,7 +67,8 @@ class PlaceSearch {
 
     /// Sets `fraction` and `point`; `exact` is the true fraction, rounded once. Returns how many points were not clear.
     int find(double exact, Hit<Scalar>& hit) {
-        // Below the true fraction, which `exact` is within CertifiedFace::k_tolerance of, and one rounding; two steps where it is denormal.
+        // Below the true fraction, which `exact` is within CertifiedFace::k_tolerance of, and one rounding; two steps
+        // where it is denormal.
         const double below = std::max(0.0, exact * (1 - (sizeof(Scalar) == 4 ? 0x1p-28 : 0x1p-52)) - 0x1p-1073);
         if (find_near(hit)) {
             hit.fraction = same_as_start(hit) ? Scalar{0} : rounded_down<Scalar>(below);
@@ -98,51 +80,120 @@ class PlaceSearch {
 
   private:
     bool find_near(Hit<Scalar>& hit) {
-        const Point none{};
-        if (try_near(none, false, hit) || try_near(none, true, hit)) return true;
-        // Away from other faces: back to the start, then in 26 directions. Never towards the plane.
-        Point back{};
-        double most = 0;
-        for (std::size_t k = 0; k < 3; ++k) back[k] = path_.from[k] / 2 - path_.to[k] / 2, most = std::max(most, std::abs(back[k]));
-        for (double& x : back) x /= most;
-        if (try_moved(back, 2, hit) || try_moved(back, 5, hit)) return true;
-        // First the 26 to the neighbours, then the 72 that lie between those: some corners leave no more than a sliver.
-        for (const int finest : {1, 2})
-            for (const double by : {1.5, 3.5, 6.5, 9.0})
-                for (int x = -finest; x <= finest; ++x)
-                    for (int y = -finest; y <= finest; ++y)
-                        for (int z = -finest; z <= finest; ++z) {
-                            if (std::max({std::abs(x), std::abs(y), std::abs(z)}) != finest || (x % 2 == 0 && y % 2 == 0 && z % 2 == 0)) continue;
-                            if (try_moved({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}, by, hit)) return true;
-                        }
+        if (try_near(off_, k_to_nearest, hit) == Tried::clear) return true;
+        if (try_near(off_, k_outwards, hit) == Tried::clear) return true;
+        Around around{high_, low_, unit_, {}};
+        for (std::size_t k = 0; k < 3; ++k)
+            around.rounding[k] = last_place<Scalar>(std::abs(high_[k]) + k_reach_units * unit_) / unit_ / 2;
+        HalfSpaces chosen;
+        chosen.push({unit_normal_, off_length_ / unit_ + around.slack(unit_normal_)});
+        if (find_clear(around, chosen, hit)) return true;
+        if (tries_ == 0) return false;
+        // Thin corners: room for no rounding, but all eight ways to round.
+        thin_ = true;
+        most_tries_ += k_most_tries;
+        around.rounding = {};
+        HalfSpaces again;
+        again.push({unit_normal_, off_length_ / unit_});
+        const int so_far = tries_;
+        if (find_clear(around, again, hit)) return true;
+        return tries_ != so_far && find_in_ball(hit);
+    }
+
+    // The last resort for corners whose half-spaces have a place that is too thin for any rounding tried: each point of
+    // a lattice of one unit.
+    bool find_in_ball(Hit<Scalar>& hit) {
+        return each_in_ball(k_reach_units, [&](int x, int y, int z) {
+            const Point by{x * unit_, y * unit_, z * unit_};
+            if (dot_product(by, unit_normal_) < off_length_ - unit_) return false;  // P was rounded
+            Point point{};
+            double square = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto near = static_cast<double>(static_cast<Scalar>(high_[k]));
+                point[k] = static_cast<double>(static_cast<Scalar>(near + by[k]));
+                const double off = ((point[k] - high_[k]) - low_[k]) / unit_;
+                square += off * off;
+            }
+            return square <= reach_ * reach_ && is_finite_and_far(point) && ways_.clear(point, true) &&
+                   take(point, true, hit) == Tried::clear;
+        });
+    }
+
+    // Tries the nearest point of the half-spaces; if a triangle is in the way, goes on with each way out, the nearest
+    // first.
+    bool find_clear(const Around& around, HalfSpaces& chosen, Hit<Scalar>& hit) {
+        Point x{};
+        if (tries_ >= most_tries_ || !chosen.nearest(reach_, x)) return false;
+        Point by{};
+        for (std::size_t k = 0; k < 3; ++k) by[k] = unit_ * x[k];
+        if (!try_roundings(by, hit)) return found_;
+        if (chosen.full()) return false;
+        WaysOut ways(blocker_, blocked_, path_.from, around);
+        std::array<double, 4> cost{};
+        for (std::size_t i = 0; i < ways.count; ++i) {
+            HalfSpace& out = ways.all[i];
+            // A point beyond it and yet stopped: by what the plane's own rounding is.
+            out.least = std::max(out.least, dot_product(out.normal, x) + around.slack(out.normal) / 2 + 0x1p-4);
+            Point there{};
+            chosen.push(out);
+            cost[i] = chosen.nearest(reach_, there) ? dot_product(there, there) : HUGE_VAL;
+            chosen.pop();
+        }
+        for (std::size_t n = 0; n < ways.count; ++n) {
+            const auto* const nearest = std::min_element(cost.begin(), cost.begin() + ways.count);
+            const auto least = static_cast<std::size_t>(nearest - cost.begin());
+            if (cost[least] == HUGE_VAL) return false;
+            cost[least] = HUGE_VAL;
+            chosen.push(ways.all[least]);
+            if (find_clear(around, chosen, hit)) return true;
+            chosen.pop();
+        }
         return false;
     }
 
-    bool try_moved(const Point& direction, double by, Hit<Scalar>& hit) {
-        const double length = std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
-        double in = 0;  // towards the plane
-        for (std::size_t k = 0; k < 3; ++k) in += direction[k] / length * unit_normal_[k];
-        in = std::min(in, 0.0);
-        Point moved{};
-        for (std::size_t k = 0; k < 3; ++k) moved[k] = by * unit_ * (direction[k] / length - in * unit_normal_[k]);
-        return try_near(moved, true, hit);
+    // Whether a triangle is in the way to all of them that are fit: `blocker_`, which stops the first. If not, `found_`
+    // says whether a way is clear.
+    bool try_roundings(const Point& by, Hit<Scalar>& hit) {
+        found_ = false;
+        bool stopped = false;
+        Corners blocker{};
+        Decision blocked;
+                const unsigned step = thin_ ? 1 : k_outwards;
+        for (unsigned rounding = k_to_nearest; rounding <= k_outwards && (thin_ || !stopped); rounding += step) {
+            const Tried tried = try_near(by, rounding, hit);
+            if (tried == Tried::clear) found_ = true;
+            if (found_) return false;
+            if (stopped || tried == Tried::unfit) continue;
+            stopped = true;
+            blocker = blocker_;
+            blocked = blocked_;
+        }
+        blocker_ = blocker;
+        blocked_ = blocked;
+        return stopped;
     }
 
-    // The true point, moved off the plane and by `moved`.
-    bool try_near(const Point& moved, bool outwards, Hit<Scalar>& hit) {
+    enum class Tried : std::uint8_t { clear, stopped, unfit };
+    /// Below 8: the coordinates whose bit is set are rounded to the further of their two neighbours.
+    static constexpr unsigned k_to_nearest = 0;
+    static constexpr unsigned k_outwards = 8;  ///< off the plane
+
+    // The true point, moved by `by`, rounded. Where it is stopped, `blocker_` is what stops it.
+    Tried try_near(const Point& by_, unsigned rounding, Hit<Scalar>& hit) {
         double square = 0;  // of the distance from the true point, in units
         Point by{};
-        for (std::size_t k = 0; k < 3; ++k) by[k] = low_[k] + (off_[k] + moved[k]);
+        for (std::size_t k = 0; k < 3; ++k) by[k] = low_[k] + by_[k];
         Point point = rounded_to<Scalar>({high_[0] + by[0], high_[1] + by[1], high_[2] + by[2]});
         for (std::size_t k = 0; k < 3; ++k) {
             const double beyond = (point[k] - high_[k]) - by[k];
-            if (outwards && ((beyond < 0 && out_[k] > 0) || (beyond > 0 && out_[k] < 0))) point[k] = next_to<Scalar>(point[k], out_[k]);
+            const bool inwards = (beyond < 0 && out_[k] > 0) || (beyond > 0 && out_[k] < 0);
+            const bool turned = rounding == k_outwards ? inwards : (rounding >> k & 1U) != 0 && beyond != 0;
+            if (turned) point[k] = next_to<Scalar>(point[k], -beyond);
             const double x = ((point[k] - high_[k]) - low_[k]) / unit_;
             square += x * x;
         }
-        // One unit for what the true point may be off. (False for what is not finite.)
-        constexpr double k_most = k_grain_units + 8 - 1;
-        return square <= k_most * k_most && take(point, true, hit);
+        if (!(square <= reach_ * reach_)) return Tried::unfit;  // or not finite
+        return take(point, true, hit);
     }
 
     void find_back(double below, Hit<Scalar>& hit) {
@@ -157,32 +208,37 @@ class PlaceSearch {
             for (std::size_t k = 0; k < 3; ++k) point[k] = path_.from[k] * back + (high_[k] + off_[k]) * share;
             point = rounded_to<Scalar>(point);
             hit.fraction = rounded_down<Scalar>(below * share);
-            if (point != path_.from && take(point, false, hit)) return;
+            if (point != path_.from && take(point, false, hit) == Tried::clear) return;
             for (std::size_t k = 0; k < 3; ++k)
                 if (out_[k] != 0) point[k] = next_to<Scalar>(point[k], out_[k]);
-            if (point != path_.from && take(point, false, hit)) return;
+            if (point != path_.from && take(point, false, hit) == Tried::clear) return;
         }
         hit.fraction = 0;
         for (int k = 0; k < 3; ++k) hit.point[k] = static_cast<Scalar>(path_.from[static_cast<std::size_t>(k)]);
     }
 
-    bool take(const Point& point, bool near, Hit<Scalar>& hit) {
-        for (const double x : point)
-            if (!std::isfinite(x)) return false;
+    Tried take(const Point& point, bool near, Hit<Scalar>& hit) {
+        if (!is_finite_and_far(point)) return Tried::unfit;
         if (point != path_.from) {
-            if (!is_far(point)) return false;
-            if (!clear_(point, near)) {
+            if (near ? ways_.stops(point, blocker_, blocked_) : !ways_.clear(point, false)) {
                 ++tries_;
-                return false;
+                return Tried::stopped;
             }
         }
         for (int k = 0; k < 3; ++k) hit.point[k] = static_cast<Scalar>(point[static_cast<std::size_t>(k)]);
-        return true;
+        return Tried::clear;
     }
 
-    // On the start's side, and a grain off the plane or as far as the start. The first by n . (point - P), P being in the plane, the second by
-    // n . (point - from): each term is off by what n and P may be off, and 2^-51 of itself for its roundings and the sum's. (Where each term of the
-    // second has a factor that is exactly 0, so is it.) Only what neither proves nor refutes is left to exact arithmetic.
+    bool is_finite_and_far(const Point& point) {
+        for (const double x : point)
+            if (!std::isfinite(x)) return false;
+        return point == path_.from || is_far(point);
+    }
+
+    // On the start's side, and a grain off the plane or as far as the start. The first by n . (point - P), P being in
+    // the plane, the second by n . (point - from): each term is off by what n and P may be off, and 2^-51 of itself for
+    // its roundings and the sum's. (Where each term of the second has a factor that is exactly 0, so is it.) Only what
+    // neither proves nor refutes is left to exact arithmetic.
     bool is_far(const Point& point) {
         if (spot_ != nullptr) {
             double from_plane = 0;
@@ -203,12 +259,12 @@ class PlaceSearch {
             }
             plane_error *= 1.01;
             start_error *= 1.01;
-            const double wanted = grain_ * (length_ + length_error) * (1 + 0x1p-48);
+            const double wanted = k_far * grain_ * (length_ + length_error);
             if (from_plane - plane_error >= wanted || from_start >= start_error) return true;
             if (from_plane + plane_error < wanted && from_start < -start_error) return false;
         }
         ++counters_.exact_sides;
-        return is_far_enough(corners_, path_.from, point, grain_);
+        return is_far_enough(corners_, path_.from, point, k_far * grain_);
     }
 
     bool same_as_start(const Hit<Scalar>& hit) const { return to_point(hit.point) == path_.from; }
@@ -219,8 +275,19 @@ class PlaceSearch {
     double unit_;
     const Spot* spot_;
     QueryCounters& counters_;
-    Clear& clear_;
+    const Ways& ways_;
+    /// Of a grain, so that a point that lies exactly a grain off is not refused by the roundings here (2^-47).
+    static constexpr double k_far = 1 - 0x1p-40;
+    static constexpr int k_most_tries = 48;
+    int most_tries_ = k_most_tries;
+    bool thin_ = false;
+    bool found_ = false;
+    /// Less what the true point may be off: a sixteenth of a unit a coordinate, or half a unit where it was only rounded.
+    double reach_;
     double length_;
+    double off_length_ = 0;
+    Corners blocker_{};
+    Decision blocked_{};  ///< the hit on it
     Point high_{};
     Point low_{};
     Point out_{};          ///< the normal, towards the start
@@ -229,12 +296,15 @@ class PlaceSearch {
     int tries_ = 0;
 };
 
-/// Sets `position`, `point` and `fraction` of a hit: the segment from -> point has no hit, none of the hit's own triangle, from whose plane the point
-/// keeps off, and none of any other, which `clear(point, near)` says. `near`: the point is within `near_margin(grain)` of the true one in each
-/// coordinate. `from` itself needs no proof. `exact`: the true fraction, rounded once. Returns how many points were not clear.
-template <class Scalar, class Face, class Clear>
-int place(const Path& path, const Corners& corners, const Decision& decision, double grain, double exact, Face& face, QueryCounters& counters,
-          Clear&& clear, Hit<Scalar>& hit) {
+/// Sets `position`, `point` and `fraction` of a hit: the segment from -> point has no hit, none of the hit's own
+/// triangle, from whose plane the point keeps off, and none of any other, which `ways` says:
+///   bool stops(point, corners, decision)   whether a triangle stops the way to a point within `near_margin(grain)` of
+///                                          the true one in each coordinate; if so, the corners of the first, and how it is hit
+///   bool clear(point, near)            whether none stops the way to a point, near as above or any
+/// `from` itself needs no proof. `exact`: the true fraction, rounded once. Returns how many points were not clear.
+template <class Scalar, class Face, class Ways>
+int place(const Path& path, const Corners& corners, const Decision& decision, double grain, double exact, Face& face,
+          QueryCounters& counters, const Ways& ways, Hit<Scalar>& hit) {
     Point position = path.from;
     int tries = 0;
     if (decision.at_start) {
@@ -247,8 +317,9 @@ int place(const Path& path, const Corners& corners, const Decision& decision, do
             ++counters.exact_values;
             position = exact_position<Scalar>(path, corners);
         }
-        tries = PlaceSearch<Scalar, std::remove_reference_t<Clear>>(path, corners, decision.side, grain, located.spot ? &spot : nullptr, position, face.normal(), counters,
-                                           clear).find(exact, hit);
+        PlaceSearch<Scalar, Ways> search(path, corners, decision.side, grain, located.spot ? &spot : nullptr, position,
+                                         face.normal(), counters, ways);
+        tries = search.find(exact, hit);
     }
     for (int k = 0; k < 3; ++k) hit.position[k] = static_cast<Scalar>(position[static_cast<std::size_t>(k)]);
     return tries;

@@ -1,6 +1,7 @@
 // The decision contract in small cases that can be checked by eye; see include/pierce/hit.h for its words.
 #include <limits>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
 #include <support/expect_hit.h>
@@ -327,16 +328,20 @@ TEST(Contract, coordinates_at_both_ends_of_the_range) {
     }
 }
 
+// A hit's point need not lie on the segment: the way to it is clear, it keeps off the plane by a grain (or as far as the start), it is near the true
+// one, and who goes on from there to the same end is stopped again, for certain where the way's own triangle is met further from its edges than
+// the point may lie aside.
 template <class Scalar>
 void expect_verified(const TriangleSoup<Scalar>& soup, std::uint64_t seed) {
     const CollisionMesh<Scalar> mesh(soup.view());
     const Extent<Scalar> extent(soup.view());
+    const double largest = std::max(extent.low.cwiseAbs().maxCoeff(), extent.high.cwiseAbs().maxCoeff());
+    const double unit = std::numeric_limits<Scalar>::epsilon() * std::exp2(std::floor(std::log2(largest)));
     Random random(seed);
     int hits = 0;
-    int moved_at_all = 0;
-    int fronts = 0;
+    int faces = 0;
     int stopped_again = 0;
-    int near = 0;
+    int far = 0;
     for (int i = 0; i < 20'000; ++i) {
         const Segment<Scalar> segment = mixed_segment(soup.view(), extent, random);
         const QueryOptions options{.sides = random.chance(0.5) ? Sides::both : Sides::front};
@@ -347,24 +352,35 @@ void expect_verified(const TriangleSoup<Scalar>& soup, std::uint64_t seed) {
         ASSERT_LE(hit->fraction, hit->exact_fraction) << to_text(segment);
         ASSERT_GE(hit->fraction, 0) << to_text(segment);
         ASSERT_TRUE(hit->fraction > 0 || hit->point == segment.from) << to_text(segment);
-        moved_at_all += hit->point != segment.from ? 1 : 0;
-        // How far before the hit the point lies, in units in the last place of the largest coordinate.
-        const Vec3<double> from = segment.from.template cast<double>();
-        const double length = (segment.to.template cast<double>() - from).norm();
-        const double unit = std::numeric_limits<Scalar>::epsilon() * from.cwiseAbs().maxCoeff();
-        near += double(hit->exact_fraction - hit->fraction) * length <= 8 * unit ? 1 : 0;
-        // Who goes on from there is stopped again, unless it only grazed an edge that rounding moved it past. Asked of
-        // fronts alone: where both sides count, starts on a plane that leave it to the front are no hits, and as hits at
-        // fraction 0 they would be stopped again every time; without them the polycube has 97.9 %.
-        if (options.sides == Sides::both) continue;
-        ++fronts;
-        stopped_again += mesh.any_hit({hit->point, segment.to}, options) ? 1 : 0;
+        if (hit->at_start) continue;
+        const Vec3<double> normal = hit->normal.template cast<double>() * (hit->side == Sides::front ? 1 : -1);
+        const auto from_true = [&](const Vec3<Scalar>& p) -> Vec3<double> { return (p - hit->position).template cast<double>(); };
+        // The position was rounded (sqrt(3) / 2 of a unit), and so was the normal, by 4 ulp of 1.
+        const double start = normal.dot(from_true(segment.from));
+        const double slack = unit + 8 * std::numeric_limits<Scalar>::epsilon() * from_true(segment.from).norm();
+        const double off = normal.dot(from_true(hit->point));
+        ASSERT_GE(off, std::min(4 * unit, start - slack) - unit) << to_text(segment);
+        far += from_true(hit->point).norm() > 13 * unit ? 1 : 0;
+        if (hit->feature != Feature::face) continue;
+        // Where the segment from the point to the same end meets the plane: no further from the true point than this.
+        const double below = std::max(0.0, -normal.dot(from_true(segment.to)) - slack);
+        const double aside = from_true(hit->point).norm() + unit + (segment.to - hit->point).template cast<double>().norm() * (off + unit) / (off + below);
+        double to_edge = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3<double> a = corner(soup.view(), hit->triangle, k);
+            const Vec3<double> b = corner(soup.view(), hit->triangle, (k + 1) % 3);
+            to_edge = std::min(to_edge, (b - a).normalized().cross(hit->position.template cast<double>() - a).norm());
+        }
+        if (to_edge <= aside + unit) continue;
+        ++faces;
+        const bool again = mesh.any_hit({hit->point, segment.to}, options);
+        ASSERT_TRUE(again) << to_text(segment);
+        stopped_again += again ? 1 : 0;
     }
+    std::cout << hits << " hits, " << faces << " of them away from edges, " << far << " points further than 13 units from the true ones\n";
     EXPECT_GT(hits, 2000);
-    EXPECT_GT(moved_at_all, hits / 2);
-    EXPECT_GT(fronts, hits / 4);
-    EXPECT_GT(stopped_again, fronts * 0.98);
-    EXPECT_GT(near, hits * 0.9);
+    EXPECT_GT(stopped_again, hits / 4);
+    EXPECT_LE(far, hits / 500);  // in corners with no clear place nearer: place_test.cpp looks for one
 }
 
 TEST(Contract, the_way_to_the_returned_point_is_clear) {

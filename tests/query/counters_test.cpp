@@ -31,6 +31,12 @@ void expect_all_counted() {
         soup.positions.push_back({static_cast<Scalar>(x), static_cast<Scalar>(y), Scalar{5}});
     soup.triangles.push_back({first, first + 1, first + 2});
     soup.triangles.push_back({first + 3, first + 4, first + 5});
+    // Two sheets at 45 degrees that meet above all this, in a valley: what comes down on one of them close to the valley must keep off both.
+    const auto valley = static_cast<std::uint32_t>(soup.positions.size());
+    for (const auto& [x, y, z] : {std::array{100, -10, 20}, {100, 10, 20}, {115, 0, 23}, {115, 0, 40}})
+        soup.positions.push_back({static_cast<Scalar>(x), static_cast<Scalar>(y), static_cast<Scalar>(z)});
+    soup.triangles.push_back({valley, valley + 2, valley + 1});
+    soup.triangles.push_back({valley, valley + 1, valley + 3});
     const CollisionMesh<Scalar> mesh(soup.view());
     const Extent<Scalar> extent(soup.view());
     Random random(4);
@@ -42,6 +48,16 @@ void expect_all_counted() {
         const Vec3<Scalar> to = random.in_cube().template cast<Scalar>() + Vec3<Scalar>(100, 0, 3);
         segments.push_back({from, to});
     }
+
+    for (int i = 0; i < 500; ++i) {
+        const Vec3<double> at(100 + 2000 * random.unit() * double(std::numeric_limits<Scalar>::epsilon()), random.between(-9, 9), 20);
+        const Vec3<double> way(-random.between(1, 8), random.between(-1, 1), -random.between(0.3, 1.2));
+        segments.push_back({(at - way).template cast<Scalar>(), (at + way).template cast<Scalar>()});
+    }
+
+    // And on from where they stop, a grain off a plane.
+    for (std::size_t i = 0, count = segments.size(); i < count; ++i)
+        if (const auto hit = mesh.first_hit(segments[i])) segments.push_back({hit->point, segments[i].to});
 
     QueryCounters single;
     for (const Segment<Scalar>& s : segments) (void)mesh.first_hit(s, {.counters = &single});

@@ -110,10 +110,13 @@ TEST(DelicateValues, of_a_long_grazing_segment_and_a_small_face) {
 }
 
 TEST(DelicateValues, a_denormal_fraction_is_a_lower_bound_where_the_point_has_moved) {
-    // The segment starts some smallest doubles above the face and goes far aside, so that even this part of the way is a way.
+    // The segment starts some smallest doubles above the face and goes far aside, so that even this part of the way is a way. The point keeps as far off
+    // as the start is, and the fraction belongs to it: 0 only where two of the smallest doubles, which the bound takes off, leave nothing.
     Random random(43);
     const double tiny = std::numeric_limits<double>::denorm_min();
     int hits = 0;
+    int with_fraction = 0;
+    int moved = 0;
     for (int i = 0; i < 2'000; ++i) {
         One<double> one;
         one.corners = {V(-8, -8, 0), V(1e301, -8, 0), V(-8, 1e301, 0)};
@@ -125,9 +128,14 @@ TEST(DelicateValues, a_denormal_fraction_is_a_lower_bound_where_the_point_has_mo
         ++hits;
         ASSERT_LE(Q(hit->fraction), exact) << i;
         ASSERT_LE(ulps(hit->exact_fraction, exact, CGAL::to_double(exact)), 1) << i;
-        ASSERT_TRUE(hit->fraction > 0 || hit->point == one.segment.from) << i;
+        ASSERT_TRUE(hit->fraction > 0 || hit->point == one.segment.from || exact <= Q(3 * tiny)) << i;
+        ASSERT_GE(hit->point[2], above) << i;
+        with_fraction += hit->fraction > 0 ? 1 : 0;
+        moved += hit->point != one.segment.from ? 1 : 0;
     }
     EXPECT_EQ(hits, 2'000);
+    EXPECT_GT(with_fraction, 1'500);
+    EXPECT_GT(moved, 500);
 }
 
 // Never outside of the box of both ends: half of an odd number of smallest doubles is rounded, and twice that is beyond the end.

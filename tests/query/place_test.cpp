@@ -172,7 +172,7 @@ Distances distances(const TriangleSoup<Scalar>& soup, int count, Sides sides, St
 }
 
 void expect_near_points(int count) {
-    for (const Sides sides : {Sides::front, Sides::both}) EXPECT_LE(distances(Grazing().soup, count, sides, Grazing::step).beyond, count / 1000);
+    for (const Sides sides : {Sides::front, Sides::both}) EXPECT_EQ(distances(Grazing().soup, count, sides, Grazing::step).beyond, 0);
     const auto mixed = [count]<class Scalar>(const TriangleSoup<Scalar>& soup) {
         const Extent<Scalar> extent(soup.view());
         const auto step = [&](Random& random) { return mixed_segment(soup.view(), extent, random); };
@@ -347,6 +347,10 @@ void expect_rest(int steps, double height, const V& up) {
     std::cout << "height " << height << ": exact room entered " << entries(halves[0]) << " and " << entries(halves[1]) << " times, values "
               << halves[1].exact_values << ", sides " << halves[1].exact_sides << '\n';
     EXPECT_LE(entries(halves[1]), entries(halves[0]) * 6 / 5 + 20);
+    // The decisions are double-double's. In double the fraction of a start so near takes one exact measure; on a tilted floor through the origin a position
+    // close to 0 one more, and places as far off as the start, within what double-double tells, up to four exact sides.
+    EXPECT_LE(halves[0].exact_decisions + halves[1].exact_decisions, static_cast<std::uint64_t>(steps) / 20);
+    EXPECT_LE(static_cast<double>(entries(halves[0]) + entries(halves[1])), (sizeof(Scalar) == 4 ? 0.02 : 6.02) * steps);
 }
 TEST(Place, resting_particles_stay_where_they_are) {
     for (const double height : {0.0, 1.0, 1000.0})
@@ -356,8 +360,11 @@ TEST(Place, resting_particles_stay_where_they_are) {
         }
 }
 TEST(PlaceSoak, resting_particles_stay_where_they_are) {
-    expect_rest<float>(100'000, 0, V(0, 0, 1));
-    expect_rest<double>(100'000, 0, V(0, 0, 1));
+    for (const V& up : {V(0, 0, 1), V(V(1, 2, 3).normalized())}) {
+        expect_rest<float>(100'000, 0, up);
+        expect_rest<double>(100'000, 0, up);
+        expect_rest<double>(100'000, 1, up);
+    }
 }
 
 }  // namespace

@@ -108,6 +108,33 @@ class NaiveMesh {
         return found;
     }
 
+    struct OtherWays {
+        const NaiveMesh& mesh;
+        const detail::Path& path;
+        const std::vector<Found>& found;
+        std::size_t at;
+        const QueryOptions& options;
+
+        [[nodiscard]] bool clear(const detail::Point& point, bool) const { return !first(point); }
+        bool stops(const detail::Point& point, detail::Corners& corners, detail::Decision& decision) const {
+            const auto stop = first(point);
+            if (!stop) return false;
+            corners = mesh.corners_[stop->triangle];
+            decision = stop->decision;
+            return true;
+        }
+        // Of the hits on the way to the point, but for those strictly before the hit itself.
+        [[nodiscard]] std::optional<Found> first(const detail::Point& point) const {
+            for (const Found& other : mesh.hits({path.from, point}, options)) {
+                const auto before = [&](const Found& f) {
+                    return f.triangle == other.triangle && mesh.order(path, f.triangle, found[at].triangle) < 0;
+                };
+                if (std::none_of(found.begin(), found.end(), before)) return other;
+            }
+            return std::nullopt;
+        }
+    };
+
     [[nodiscard]] Hit<Scalar> reported(const detail::Path& path, const std::vector<Found>& found, std::size_t i,
                                        const QueryOptions& options) const {
         const std::uint32_t triangle = found[i].triangle;
@@ -119,16 +146,8 @@ class NaiveMesh {
         detail::report(measures, normal, found[i].decision, faces_[triangle], triangle, hit);
         QueryOptions whole = options;
         whole.max_fraction = 1;
-        const auto clear = [&](const detail::Point& point, bool) {
-            for (const Found& other : hits({path.from, point}, whole)) {
-                const auto before = [&](const Found& f) {
-                    return f.triangle == other.triangle && order(path, f.triangle, triangle) < 0;
-                };
-                if (std::none_of(found.begin(), found.end(), before)) return false;
-            }
-            return true;
-        };
-        detail::place<Scalar>(path, corners_[triangle], found[i].decision, grain_, measures.fraction, face, unused, clear, hit);
+        const OtherWays ways{*this, path, found, i, whole};
+        detail::place<Scalar>(path, corners_[triangle], found[i].decision, grain_, measures.fraction, face, unused, ways, hit);
         return hit;
     }
 
