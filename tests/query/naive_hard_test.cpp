@@ -18,7 +18,7 @@ void compare(const TriangleSoup<double>& soup, double scale, const Vec3<double>&
     Random random(seed);
     compare_twins(twins, count, random,
                   [&] { return hard_segment(scaled.view(), extent, twins.cell_size(), random); });
-    EXPECT_GT(twins.hits(), count / 20);
+    EXPECT_GT(twins.hits(), count / 40);
 }
 
 const Vec3<double> k_nowhere = {0, 0, 0};
