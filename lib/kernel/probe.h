@@ -18,6 +18,7 @@ struct Probe {
     double length;
 
     // Slab tests: 1 / direction, and |that| * noise.
+    double full_inverse[4];
     float inverse[4];
     float margin[4];
     // For bounds on the scene's lattice: t is near[axis] + bound * pace[axis] at the near side of a slab.

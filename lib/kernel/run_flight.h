@@ -80,7 +80,7 @@ class FlightRun {
             const AnyNode& node = nodes[query.child];
             const Ray<Wide> ray(query.probe);
             Touched<Wide> touched;
-            slab_test<Wide>(node, query.probe, ray, Wide::all(query.limit), touched);
+            slab_test<Wide>(node, query.probe, ray, query.limit, touched);
             ++query.probe.nodes;
             const unsigned depth = query.depth;
             Sixteen<Wide> left = keys_of(touched);

@@ -151,6 +151,7 @@ template <class Wide, class Scalar>
     const Four per_noise = size_of(inverse);
     const Four center = -x * inverse;
     const Four e = per_noise * (noise + 0x1p-19);
+    store(probe.full_inverse, inverse);
     store(probe.inverse, __builtin_convertvector(inverse, FourFloats));
     store(probe.margin, __builtin_convertvector(per_noise * (noise * (1 + 0x1p-20)), FourFloats));
     store(probe.pace, __builtin_convertvector(inverse * frame.step, FourFloats));

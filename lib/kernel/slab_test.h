@@ -50,16 +50,17 @@ struct Ray {
     }
 };
 
-template <class Wide, class Scalar>
-[[gnu::always_inline]] inline void slab_test(const Node& node, const Probe<Scalar>&, const Ray<Wide>& ray, typename Wide::Float limit,
-                                             Touched<Wide>& out) {
+/// Bounds read by `read(row, group)`: t = near + bound * pace, no earlier than `first`.
+template <class Wide, class Read>
+[[gnu::always_inline]] inline void slab_test_rows(const Read& read, const Ray<Wide>& ray, typename Wide::Float first,
+                                                  typename Wide::Float limit, Touched<Wide>& out) {
     using Float = typename Wide::Float;
     for (unsigned g = 0; g < Sixteen<Wide>::groups; ++g) {
         const auto at = [&](unsigned row, unsigned k, Float offset) {
-            return Wide::multiply_add(Wide::words(node.bounds[row] + Wide::width * g), ray.pace[k], offset);
+            return Wide::multiply_add(read(row, g), ray.pace[k], offset);
         };
         const Float entry = Wide::max(Wide::max(at(ray.near_row[0], 0, ray.near[0]), at(ray.near_row[1], 1, ray.near[1])),
-                                      Wide::max(at(ray.near_row[2], 2, ray.near[2]), Wide::all(0)));
+                                      Wide::max(at(ray.near_row[2], 2, ray.near[2]), first));
         const Float exit = Wide::min(Wide::min(at(ray.far_row[0], 0, ray.far[0]), at(ray.far_row[1], 1, ray.far[1])),
                                      Wide::min(at(ray.far_row[2], 2, ray.far[2]), limit));
         out.entry.part[g] = entry;
@@ -68,32 +69,75 @@ template <class Wide, class Scalar>
 }
 
 template <class Wide, class Scalar>
-[[gnu::always_inline]] inline void slab_test(const CoarseNode& node, const Probe<Scalar>& probe, const Ray<Wide>& ray,
-                                             typename Wide::Float limit, Touched<Wide>& out) {
-    using Float = typename Wide::Float;
-    Float pace[3];
-    Float near[3];
-    Float far[3];
+[[gnu::always_inline]] inline void slab_test(const Node& node, const Probe<Scalar>&, const Ray<Wide>& ray, float limit,
+                                             Touched<Wide>& out) {
+    const auto read = [&](unsigned row, unsigned g) { return Wide::words(node.bounds[row] + Wide::width * g); };
+    slab_test_rows<Wide>(read, ray, Wide::all(0), Wide::all(limit), out);
+}
+
+// From which distance on, in sizes of a coarse node, its own base is taken: the bound above is then a 64th of its size.
+constexpr float k_far_node = 0x1p14F;
+
+/// A coarse node so far away that floats would not tell its children apart: all parameters are taken relative to `base`, about where
+/// the segment comes to the node, computed in double. With center = (origin - x) / d, within 2^-51 of itself, a slab's side is at
+/// (center - base) + bound * pace; 2^-22 (|center - base| + 255 |pace|) is more than the roundings of that to float and of the sum.
+template <class Wide, class Scalar>
+[[gnu::noinline]] Touched<Wide> slab_test_far(const CoarseNode& node, const Probe<Scalar>& probe, float limit) {
+    double center[3];
+    double pace[3];
+    double base = -static_cast<double>(__builtin_inff());
+    for (unsigned k = 0; k < 3; ++k) {
+        center[k] = (node.origin[k] - probe.origin[k]) * probe.full_inverse[k];
+        pace[k] = static_cast<double>(node.step[k]) * probe.full_inverse[k];
+        const double near = pace[k] < 0 ? center[k] + 255 * pace[k] : center[k];
+        base = near > base ? near : base;
+    }
+    Ray<Wide> own(probe);
+    for (unsigned k = 0; k < 3; ++k) {
+        const double from_base = center[k] - base;
+        const double e = __builtin_fabs(probe.full_inverse[k]) * probe.noise[k] + 0x1p-50 * __builtin_fabs(center[k]) +
+                         0x1p-22 * (__builtin_fabs(from_base) + 255 * __builtin_fabs(pace[k]));
+        own.pace[k] = Wide::all(static_cast<float>(pace[k]));
+        own.near[k] = Wide::all(static_cast<float>(from_base - e));
+        own.far[k] = Wide::all(static_cast<float>(from_base + e));
+    }
+    const double slack = 0x1p-50 * __builtin_fabs(base);
+    const double left = static_cast<double>(limit) - base;
+    Touched<Wide> out;
+    const auto read = [&](unsigned row, unsigned g) { return Wide::bytes(node.bounds[row] + Wide::width * g); };
+    slab_test_rows<Wide>(read, own, Wide::all(static_cast<float>(-base - 0x1p-22 * __builtin_fabs(base))),
+                         Wide::all(static_cast<float>(left + slack + 0x1p-22 * __builtin_fabs(left))), out);
+    // From the segment's start again, rounded down: keys are compared with the limit.
+    const auto to_start = Wide::all(static_cast<float>(base - 0x1p-21 * __builtin_fabs(base)));
+    for (unsigned g = 0; g < Sixteen<Wide>::groups; ++g)
+        out.entry.part[g] = Wide::max(out.entry.part[g] + to_start, Wide::all(0));
+    return out;
+}
+
+template <class Wide, class Scalar>
+[[gnu::always_inline]] inline void slab_test(const CoarseNode& node, const Probe<Scalar>& probe, const Ray<Wide>& ray, float limit,
+                                             Touched<Wide>& out) {
+    Ray<Wide> own = ray;
+    float furthest = 0;
+    float largest = 0;
     for (unsigned k = 0; k < 3; ++k) {
         const auto c = static_cast<float>(node.origin[k] - probe.origin[k]);
-        const float size = __builtin_fabsf(c) + 255 * node.step[k];
-        const float e = probe.margin[k] + 0x1p-20F * size * __builtin_fabsf(probe.inverse[k]);
+        const float distance = __builtin_fabsf(c);
+        const float extent = 255 * node.step[k];
+        furthest = distance > furthest ? distance : furthest;
+        largest = extent > largest ? extent : largest;
+        const float e = probe.margin[k] + 0x1p-20F * (distance + extent) * __builtin_fabsf(probe.inverse[k]);
         const float center = c * probe.inverse[k];
-        pace[k] = Wide::all(node.step[k] * probe.inverse[k]);
-        near[k] = Wide::all(center - e);
-        far[k] = Wide::all(center + e);
+        own.pace[k] = Wide::all(node.step[k] * probe.inverse[k]);
+        own.near[k] = Wide::all(center - e);
+        own.far[k] = Wide::all(center + e);
     }
-    for (unsigned g = 0; g < Sixteen<Wide>::groups; ++g) {
-        const auto at = [&](unsigned row, unsigned k, Float offset) {
-            return Wide::multiply_add(Wide::bytes(node.bounds[row] + Wide::width * g), pace[k], offset);
-        };
-        const Float entry = Wide::max(Wide::max(at(ray.near_row[0], 0, near[0]), at(ray.near_row[1], 1, near[1])),
-                                      Wide::max(at(ray.near_row[2], 2, near[2]), Wide::all(0)));
-        const Float exit = Wide::min(Wide::min(at(ray.far_row[0], 0, far[0]), at(ray.far_row[1], 1, far[1])),
-                                     Wide::min(at(ray.far_row[2], 2, far[2]), limit));
-        out.entry.part[g] = entry;
-        out.hit[g] = Wide::at_most(entry, exit);
+    if (furthest > k_far_node * largest) [[unlikely]] {
+        out = slab_test_far<Wide>(node, probe, limit);
+        return;
     }
+    const auto read = [&](unsigned row, unsigned g) { return Wide::bytes(node.bounds[row] + Wide::width * g); };
+    slab_test_rows<Wide>(read, own, Wide::all(0), Wide::all(limit), out);
 }
 
 template <class Wide>

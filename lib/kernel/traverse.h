@@ -49,7 +49,7 @@ template <class Wide, class AnyNode, class Scalar>
             ++node_count;
             const AnyNode& node = nodes[child];
             Touched<Wide> touched;
-            slab_test<Wide>(node, probe, ray, Wide::all(limit), touched);
+            slab_test<Wide>(node, probe, ray, limit, touched);
             const unsigned bits = touched_bits(touched);
             if (bits == 0) {
                 none = true;

@@ -50,12 +50,17 @@ class Collapse {
         std::memcpy(cost.data(), best, sizeof cost);
     }
 
-    /// The children of the wide node that `root` becomes: clusters by their references, with `is_cluster`, and nodes.
+    [[nodiscard]] Scalar extent(std::uint32_t node) const {
+        const QuadBox<Scalar> box = box_of<Scalar>(nodes_[node]);
+        return largest_of<Scalar>(box.high - box.low);
+    }
     struct Child {
         std::uint32_t at;  ///< a cluster's place, or a node
         bool is_cluster;
     };
-    [[nodiscard]] unsigned children(std::uint32_t root, std::array<Child, k_children>& out) const {
+    /// The children of the wide node that `root` becomes: clusters by their references, with `is_cluster`, and nodes.
+    /// What is smaller than `least_extent` stays a child, whatever that costs.
+    [[nodiscard]] unsigned children(std::uint32_t root, Scalar least_extent, std::array<Child, k_children>& out) const {
         struct Part {
             std::uint32_t node;
             unsigned places;
@@ -71,7 +76,7 @@ class Collapse {
             const std::array<float, k_children>& cost = rows_[part.node].cost;
             const bool open =
                 node.count > 0 ? node.count <= part.places : part.places > 1 && cost[part.places - 1] < cost[0];
-            if (!top && !open) {
+            if (!top && (!open || extent(part.node) < least_extent)) {
                 out[count++] = {part.node, false};
             } else if (node.count > 0) {
                 for (std::uint32_t i = 0; i < node.count; ++i) out[count++] = {node.at + i, true};

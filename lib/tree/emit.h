@@ -65,7 +65,10 @@ template <class Scalar, class Encoder>
         todo.pop_back();
         tree.depth = std::max(tree.depth, now.depth);
         std::array<typename Collapse<Scalar>::Child, k_children> children;
-        const unsigned count = collapse.children(now.binary, children);
+        // In a frame of the node's own, boxes smaller than some of its 255 steps are all but the same: a segment that comes to
+        // one of them would go through all.
+        const Scalar least_extent = Encoder::k_coarse ? collapse.extent(now.binary) / 64 : 0;
+        const unsigned count = collapse.children(now.binary, least_extent, children);
         QuadBox<Scalar> boxes[k_children];
         std::uint32_t refs[k_children];
         std::size_t inner = 0;
