@@ -24,8 +24,8 @@ struct KernelsOf {
 };
 
 template <class Wide>
-constexpr Backend backend_named(const char* name) {
-    return {name, KernelsOf<Wide, float>::table(), KernelsOf<Wide, double>::table()};
+constexpr Backend backend_named(const char* name, const Refine& refine = k_refine) {
+    return {name, KernelsOf<Wide, float>::table(), KernelsOf<Wide, double>::table(), &refine};
 }
 
 }  // namespace

@@ -10,29 +10,43 @@
 
 namespace pierce::detail {
 
+/// Whether start and end of a way are certainly on one side of a triangle's plane, strictly: it is not hit. `measured` is of a path with that start.
+[[nodiscard]] inline bool stays_on_one_side(const Measured& measured, const Point& end) {
+    constexpr double u = Arithmetic<double>::unit;
+    const Triple<Pair>& nr = measured.meeting.nr;
+    const Triple<Pair>& a = measured.lines.af;
+    const Triple<double> o = {end[0] - a.x[0], end[1] - a.y[0], end[2] - a.z[0]};
+    // As v in meeting.h.
+    const double there = nr.x[0] * o.x + nr.y[0] * o.y + nr.z[0] * o.z;
+    const double bar = measured.bar_nr.x[0] * std::abs(o.x) + measured.bar_nr.y[0] * std::abs(o.y) + measured.bar_nr.z[0] * std::abs(o.z);
+    const double v = measured.v();
+    const double ev = 9 * u * measured.bar_vc[0];
+    return measured.tame && ((v < -ev && there > 9 * u * bar) || (v > ev && there < -9 * u * bar));
+}
+
 /// Writes the hit of a candidate, to where the caller wants it: a copy of what was just written number by number would wait for memory.
 /// `passed(triangle)` says which triangles are hit strictly before it, and so on the way to any point near it. With a complete
 /// list of the query's triangles nothing else is asked again.
 template <class Kernel, class Scalar, class Passed>
-void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Passed& passed, const QueryOptions& options,
-            QueryCounters& counters, const Shortlist* list, Hit<Scalar>& hit) {
+void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Measured& measured, const Passed& passed,
+            const QueryOptions& options, QueryCounters& counters, const Shortlist* list, Hit<Scalar>& hit) {
     const TriangleRef triangle = candidate.triangle;
-    const Corners corners = scene.corners(triangle);
-    typename Kernel::template Face<Scalar> face(corners, counters);
-    const Point normal = face.normal();
+    const Corners corners = corners_of(measured);
+    typename Kernel::template Face<Scalar> face(path, measured, candidate.decision, *scene.backend->refine, counters);
     const std::uint32_t number = scene.number_of(triangle);
-    const Measures measures = face.measures(path, candidate.decision);
-    report(measures, normal, candidate.decision, scene.face_of_number(number), number, hit);
-    QueryOptions whole = options;
-    whole.max_fraction = 1;  // a nearer limit was meant for the caller's own segment
+    const Measures measures = face.measures();
+    report(measures, face.normal(), candidate.decision, scene.face_of_number(number), number, hit);
+    // A limit that is nearer was meant for the caller's own segment: here it is 1.
     const auto clear = [&](const Point& point, bool near) {
         const Path way{path.from, point};
         Any any(passed, triangle);  // place() has seen to the hit's own triangle
         if (near && list != nullptr && list->complete) {
-            for (unsigned i = 0; i < list->count && !any.found(); ++i)
-                test_triangle<Kernel>(scene, way, list->triangles[i], whole, counters, any);
+            for (unsigned i = 0; i < list->count && !any.found(); ++i) {
+                if (list->triangles[i] == triangle || (i < Shortlist::k_measured && stays_on_one_side(list->measured[i], point))) continue;
+                test_triangle<Kernel>(scene, way, list->triangles[i], options, 1, counters, any);
+            }
         } else {
-            traverse<Kernel>(scene, way, whole, counters, any);
+            traverse<Kernel>(scene, way, options, 1, counters, any);
         }
         return !any.found();
     };
@@ -47,9 +61,9 @@ template <class Kernel, class Scalar>
                                                       QueryCounters& counters) {
     std::optional<Hit<Scalar>> hit;
     First<Scalar> first(scene, path, counters);
-    Shortlist list;
-    traverse<Kernel>(scene, path, options, counters, first, &list);
-    if (first.found()) answer<Kernel>(scene, path, first.best(), none_passed, options, counters, &list, hit.emplace());
+    traverse<Kernel>(scene, path, options, counters, first);
+    if (first.found())
+        answer<Kernel>(scene, path, first.best(), first.best_measured(), none_passed, options, counters, &first.list(), hit.emplace());
     return hit;
 }
 

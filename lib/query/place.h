@@ -8,7 +8,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <exact/place.h>
@@ -48,11 +50,15 @@ template <class Scalar>
     return {rounded(point[0]), rounded(point[1]), rounded(point[2])};
 }
 
-/// The number next to `x` in the direction of `sign`, which is not 0.
+/// The number next to `x`, which is a Scalar and finite, in the direction of `sign`. Without a branch: which way it goes can't be predicted.
 template <class Scalar>
 [[nodiscard]] double next_to(double x, double sign) {
-    constexpr Scalar k_infinity = std::numeric_limits<Scalar>::infinity();
-    return static_cast<double>(std::nextafter(static_cast<Scalar>(x), sign > 0 ? k_infinity : -k_infinity));
+    using Bits = std::conditional_t<sizeof(Scalar) == 4, std::int32_t, std::int64_t>;
+    constexpr Bits k_sign = std::numeric_limits<Bits>::min();
+    const auto bits = std::bit_cast<Bits>(static_cast<Scalar>(x));
+    const auto wanted = std::bit_cast<Bits>(static_cast<Scalar>(std::copysign(1.0, sign))) & k_sign;
+    const Bits next = (bits & k_sign) == wanted ? bits + 1 : bits - 1;
+    return static_cast<double>(std::bit_cast<Scalar>(x == 0 ? wanted | 1 : next));
 }
 
 /// Looks for the verified point of a hit that does not start on its face.
@@ -62,15 +68,16 @@ class PlaceSearch {
     /// `spot`: null where nothing but exact arithmetic is certain; `position` is the true point rounded, `normal` the face's.
     PlaceSearch(const Path& path, const Corners& corners, Sides side, double grain, const Spot* spot, const Point& position, const Point& normal,
                 QueryCounters& counters, Clear& clear)
-        : path_(path), corners_(corners), grain_(grain), unit_(grain / k_grain_units), spot_(spot), counters_(counters), clear_(clear) {
+        : path_(path), corners_(corners), grain_(grain), unit_(grain / k_grain_units), per_unit_(1 / unit_), spot_(spot), counters_(counters), clear_(clear) {
         const Point& n = spot != nullptr ? spot->normal : normal;
         length_ = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        const double inverse = 1 / length_;
         double off = grain;
         const double sign = side == Sides::front ? 1 : -1;
         if (spot != nullptr) {
             high_ = spot->high;
             low_ = spot->low;
-            off = std::min(grain, spot->distance / length_);
+            off = std::min(grain, spot->distance * inverse);
         } else {
             high_ = position;
             double distance = 0;
@@ -79,7 +86,7 @@ class PlaceSearch {
         }
         for (std::size_t k = 0; k < 3; ++k) {
             out_[k] = sign * n[k];
-            unit_normal_[k] = out_[k] / length_;
+            unit_normal_[k] = out_[k] * inverse;
             off_[k] = off * unit_normal_[k];
         }
     }
@@ -136,8 +143,9 @@ class PlaceSearch {
         Point point = rounded_to<Scalar>({high_[0] + by[0], high_[1] + by[1], high_[2] + by[2]});
         for (std::size_t k = 0; k < 3; ++k) {
             const double beyond = (point[k] - high_[k]) - by[k];
-            if (outwards && ((beyond < 0 && out_[k] > 0) || (beyond > 0 && out_[k] < 0))) point[k] = next_to<Scalar>(point[k], out_[k]);
-            const double x = ((point[k] - high_[k]) - low_[k]) / unit_;
+            const double next = next_to<Scalar>(point[k], out_[k]);
+            point[k] = outwards && beyond * unit_normal_[k] < 0 ? next : point[k];
+            const double x = ((point[k] - high_[k]) - low_[k]) * per_unit_;
             square += x * x;
         }
         // One unit for what the true point may be off. (False for what is not finite.)
@@ -217,6 +225,7 @@ class PlaceSearch {
     const Corners& corners_;
     double grain_;
     double unit_;
+    double per_unit_;
     const Spot* spot_;
     QueryCounters& counters_;
     Clear& clear_;
@@ -241,13 +250,12 @@ int place(const Path& path, const Corners& corners, const Decision& decision, do
         hit.fraction = 0;
         for (int k = 0; k < 3; ++k) hit.point[k] = static_cast<Scalar>(path.from[static_cast<std::size_t>(k)]);
     } else {
-        Spot spot;
-        const Located located = face.locate(path, grain / k_grain_units, spot, position);
+        const Located located = face.locate(grain / k_grain_units, position);
         if (!located.rounded) {
             ++counters.exact_values;
             position = exact_position<Scalar>(path, corners);
         }
-        tries = PlaceSearch<Scalar, std::remove_reference_t<Clear>>(path, corners, decision.side, grain, located.spot ? &spot : nullptr, position, face.normal(), counters,
+        tries = PlaceSearch<Scalar, std::remove_reference_t<Clear>>(path, corners, decision.side, grain, located.spot, position, face.normal(), counters,
                                            clear).find(exact, hit);
     }
     for (int k = 0; k < 3; ++k) hit.position[k] = static_cast<Scalar>(position[static_cast<std::size_t>(k)]);

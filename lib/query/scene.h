@@ -14,8 +14,8 @@ namespace pierce::detail {
 
 /// A triangle where it lies in the records.
 struct TriangleRef {
-    ClusterRef cluster = 0;
-    std::uint32_t lane = 0;
+    ClusterRef cluster;
+    std::uint32_t lane;
 
     friend bool operator==(const TriangleRef&, const TriangleRef&) = default;
 };
