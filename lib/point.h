@@ -1,22 +1,10 @@
-// The core's own points: plain doubles, into which float and double coordinates both go without change.
+// From the caller's points to the core's.
 #pragma once
 
-#include <array>
-
+#include <path.h>
 #include <pierce/types.h>
 
 namespace pierce::detail {
-
-using Point = std::array<double, 3>;
-
-/// The corners of a triangle, counter-clockwise seen from its front.
-using Corners = std::array<Point, 3>;
-
-/// A segment in the core: the same numbers as the caller's, as doubles.
-struct Path {
-    Point from;
-    Point to;
-};
 
 template <class Scalar>
 [[nodiscard]] Point to_point(const Vec3<Scalar>& v) {

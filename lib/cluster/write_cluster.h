@@ -15,7 +15,7 @@ namespace pierce::detail {
 
 /// Certain that the area is not zero. Edges p, q from one corner and n = p x q, computed: with u twice the half unit of
 /// the numbers and M the largest
-/// |component| of p and q, each component of n is within 8u M^2 (kernel/plane.h derives it). M is kept to where
+/// |component| of p and q, each component of n is within 8u M^2 (kernel/meeting.h: 4u of sums of two products, each at most M^2). M is kept to where
 /// products lose less than a
 /// thousandth of u M^2 to underflow, and none overflows.
 template <class Number>

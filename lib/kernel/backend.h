@@ -4,6 +4,7 @@
 #include <cluster/record.h>
 #include <kernel/flight.h>
 #include <kernel/probe.h>
+#include <kernel/refine.h>
 #include <node.h>
 
 namespace pierce::detail {
@@ -24,6 +25,7 @@ struct Backend {
     const char* name;
     ScalarKernels<float> of_floats;
     ScalarKernels<double> of_doubles;
+    const Refine* refine;
 
     template <class Scalar>
     [[nodiscard]] const ScalarKernels<Scalar>& of() const {

@@ -4,6 +4,6 @@
 
 namespace pierce::detail {
 
-constinit const Backend k_avx2 = backend_named<Avx2>("avx2");
+constinit const Backend k_avx2 = backend_named<Avx2>("avx2", k_refine_fused);
 
 }  // namespace pierce::detail

@@ -46,6 +46,6 @@ struct Avx512 {
 
 }  // namespace
 
-constinit const Backend k_avx512 = backend_named<Avx2, Avx512>("avx512");
+constinit const Backend k_avx512 = backend_named<Avx2, Avx512>("avx512", k_refine_fused);
 
 }  // namespace pierce::detail

@@ -12,95 +12,124 @@
 //              2 (j + k) v^2; the last sum, (1 + j + k) v^2; x.low y.low left out, j k v^2: in all
 //              (1 + 3 (j + k) + j k) v^2 AB; its low part: (1 + j + k) v AB
 //   difference of two doubles: exact; j = 1.
-// (Each times 1 + 2^-48 for what is of higher order.) In the deepest formula here, plane.h's weight a, the j of operands are
+// (Each times 1 + 2^-48 for what is of higher order.) In the deepest formulas here, meeting.h's volumes, the j of operands are
 //   differences 1, products of two 3, cross products 4, products with a difference 6, sums of three 8, then 9:
 //   products 8 v^2 and 20 v^2, sums 7, 13, 15, 17 and 19 v^2: each operation is within 32 v^2 = 2^-100 of its magnitude, with room.
 // Underflow: each of Dekker's five products and of the two others loses at most 2^-1074 more: 2^-1071 in all; sums lose nothing.
 // Overflow: splitting multiplies by 2^27 + 1: all is finite for operands below 2^990 whose product is below 2^1020.
+//
+// What a product lost can be had by a fused operation as well: both are exact, and so the same bits, where the product's last digit is not below
+// 2^-1074: where both factors are whole multiples of powers of two whose product is not. (Dekker: each half of a factor is a multiple of that power
+// too, the partial products fit 53 bits, and each sum is exact.) meeting.h says where the numbers here are. So machines that have fused operations use
+// them (refine_avx2.cpp) and answer the same.
 #pragma once
+
+#include <kernel/pair.h>
 
 namespace pierce::detail {
 
-struct DoubleDouble {
-    double high;
-    double low;
+/// What a product of two doubles lost, `product` being x y rounded: by halves of 26 bits (Veltkamp, Dekker).
+struct Dekker {
+    template <class Lane>
+    [[gnu::always_inline]] static Lane lost(Lane x, Lane y, Lane product) {
+        const Lane of_x = high_half(x);
+        const Lane of_y = high_half(y);
+        const Lane rest_x = x - of_x;
+        const Lane rest_y = y - of_y;
+        return ((of_x * of_y - product) + of_x * rest_y + rest_x * of_y) + rest_x * rest_y;
+    }
+
+  private:
+    template <class Lane>
+    [[gnu::always_inline]] static Lane high_half(Lane x) {
+        const Lane large = 0x8000001p0 * x;
+        return large - (large - x);
+    }
 };
 
+/// `Lane`: double, or a Pair of them. `Product` says what products lose.
+template <class Lane, class Product>
+struct BasicDoubleDouble {
+    Lane high;
+    Lane low;
+};
+using DoubleDouble = BasicDoubleDouble<double, Dekker>;
+
 /// x + y exactly, for any doubles whose sum is finite.
-[[nodiscard]] inline DoubleDouble two_sum(double x, double y) {
-    const double sum = x + y;
-    const double of_y = sum - x;
+template <class Product = Dekker, class Lane>
+[[nodiscard]] [[gnu::always_inline]] inline BasicDoubleDouble<Lane, Product> two_sum(Lane x, Lane y) {
+    const Lane sum = x + y;
+    const Lane of_y = sum - x;
     return {sum, (x - (sum - of_y)) + (y - of_y)};
 }
 
-/// A double as the sum of two of 26 bits (Veltkamp).
-[[nodiscard]] inline DoubleDouble split(double x) {
-    const double large = 0x8000001p0 * x;
-    const double high = large - (large - x);
-    return {high, x - high};
-}
-
 /// x y exactly, but for underflow.
-[[nodiscard]] inline DoubleDouble two_product(double x, double y) {
-    const double product = x * y;
-    const DoubleDouble a = split(x);
-    const DoubleDouble b = split(y);
-    return {product, ((a.high * b.high - product) + a.high * b.low + a.low * b.high) + a.low * b.low};
+template <class Product = Dekker, class Lane>
+[[nodiscard]] [[gnu::always_inline]] inline BasicDoubleDouble<Lane, Product> two_product(Lane x, Lane y) {
+    const Lane product = x * y;
+    return {product, Product::lost(x, y, product)};
 }
 
-[[nodiscard]] inline DoubleDouble operator-(const DoubleDouble& x) { return {-x.high, -x.low}; }
-
-[[nodiscard]] inline DoubleDouble operator+(const DoubleDouble& x, const DoubleDouble& y) {
-    const DoubleDouble sum = two_sum(x.high, y.high);
+template <class Lane, class Product>
+[[nodiscard]] [[gnu::always_inline]] inline BasicDoubleDouble<Lane, Product> operator-(const BasicDoubleDouble<Lane, Product>& x) {
+    return {-x.high, -x.low};
+}
+template <class Lane, class Product>
+[[nodiscard]] [[gnu::always_inline]] inline BasicDoubleDouble<Lane, Product> operator+(const BasicDoubleDouble<Lane, Product>& x,
+                                                                                       const BasicDoubleDouble<Lane, Product>& y) {
+    const auto sum = two_sum<Product>(x.high, y.high);
     return {sum.high, sum.low + (x.low + y.low)};
 }
-
-[[nodiscard]] inline DoubleDouble operator-(const DoubleDouble& x, const DoubleDouble& y) { return x + -y; }
-
-[[nodiscard]] inline DoubleDouble operator*(const DoubleDouble& x, const DoubleDouble& y) {
-    const DoubleDouble product = two_product(x.high, y.high);
+template <class Lane, class Product>
+[[nodiscard]] [[gnu::always_inline]] inline BasicDoubleDouble<Lane, Product> operator-(const BasicDoubleDouble<Lane, Product>& x,
+                                                                                       const BasicDoubleDouble<Lane, Product>& y) {
+    return x + -y;
+}
+template <class Lane, class Product>
+[[nodiscard]] [[gnu::always_inline]] inline BasicDoubleDouble<Lane, Product> operator*(const BasicDoubleDouble<Lane, Product>& x,
+                                                                                       const BasicDoubleDouble<Lane, Product>& y) {
+    const auto product = two_product<Product>(x.high, y.high);
     return {product.high, product.low + (x.high * y.low + x.low * y.high)};
 }
 
-/// What a formula that is written once needs to know of its numbers. `unit`: each of its operations is within this much of the magnitudes of
-/// what goes in; `difference`, of two doubles, too. `Divisor(y)(x)`: x / y as a double.
+/// What a formula that is written once needs to know of its numbers: doubles or double-doubles, single or in pairs. `unit`: each operation is within
+/// this much of the magnitudes of what goes in; `difference`, of two doubles, too.
 template <class Number>
-struct Arithmetic;
-
-template <>
-struct Arithmetic<double> {
+struct Arithmetic {
+    using Lane = Number;    ///< what it is made of: double or Pair
+    using Single = double;  ///< one of a pair
     static constexpr double unit = 0x1p-52;  // any rounding mode
-    static double difference(double x, double y) { return x - y; }
-    static double rounded(double x) { return x; }
-
-    struct Divisor {
-        explicit Divisor(double y_) : y(y_) {}
-        double operator()(double x) const { return x / y; }
-        double y;
-    };
+    [[gnu::always_inline]] static Lane difference(Lane x, Lane y) { return x - y; }
+    [[gnu::always_inline]] static Lane rounded(Number x) { return x; }
+    [[gnu::always_inline]] static Number number(Lane x) { return x; }
+    [[gnu::always_inline]] static Number all(double x) { return x - Number{}; }
+    /// Within 2 units of itself.
+    [[gnu::always_inline]] static Number quotient(Number x, Number, Lane inverse) { return x * inverse; }
+    [[gnu::always_inline]] static Number tidy(Number x) { return x; }
 };
 
-template <>
-struct Arithmetic<DoubleDouble> {
+template <class Lane_, class Product>
+struct Arithmetic<BasicDoubleDouble<Lane_, Product>> {
+    using Lane = Lane_;
+    using Number = BasicDoubleDouble<Lane, Product>;
+    using Single = BasicDoubleDouble<double, Product>;
     static constexpr double unit = 0x1p-100;
-    static DoubleDouble difference(double x, double y) { return two_sum(x, -y); }
-    static double rounded(const DoubleDouble& x) { return x.high + x.low; }
+    [[gnu::always_inline]] static Number difference(Lane x, Lane y) { return two_sum<Product>(x, -y); }
+    [[gnu::always_inline]] static Lane rounded(const Number& x) { return x.high + x.low; }
+    [[gnu::always_inline]] static Number number(Lane x) { return {x, Lane{}}; }
+    [[gnu::always_inline]] static Number all(const Single& x) { return {x.high - Lane{}, x.low - Lane{}}; }
+    /// The same number with a low part within v of the high one.
+    [[gnu::always_inline]] static Number tidy(const Number& x) { return two_sum<Product>(x.high, x.low); }
 
-    /// Rounded once, but for 2^-100 of itself before that, if nothing underflows. The parts are made to fit first: each low one is within
-    /// v of its high one. Then q = x.high * (1 / y.high) is within 4v of x / y, and what is missing is (x - q y) / y, |x - q y| <= 4v |x|:
-    /// x.high - product.high is exact (the two are within a few units of each other), the sums lose 5, 2 and 7 v^2 |x|, q y.low
-    /// 1 v^2 |x|, and the inverse of y.high in place of that of y 3v of 5v |q|, the last product 5 v^2: 35 v^2 in all.
-    struct Divisor {
-        explicit Divisor(const DoubleDouble& y_) : y(two_sum(y_.high, y_.low)), inverse(1 / y.high) {}
-        double operator()(const DoubleDouble& x_) const {
-            const DoubleDouble x = two_sum(x_.high, x_.low);
-            const double q = x.high * inverse;
-            const DoubleDouble product = two_product(q, y.high);
-            return q + (((x.high - product.high) - product.low) + (x.low - q * y.low)) * inverse;
-        }
-        DoubleDouble y;
-        double inverse;
-    };
+    /// x / y, x and y being tidy and `inverse` 1 / y.high rounded: within 2^-100 of itself, if nothing underflows. q = x.high * inverse is within
+    /// 4v of x / y, and what is missing is (x - q y) / y, |x - q y| <= 4v |x|: x.high - product.high is exact (the two are within a few units of each
+    /// other), the sums lose 5, 2 and 7 v^2 |x|, q y.low 1 v^2 |x|, and the inverse of y.high in place of that of y 3v of 5v |q|, the last
+    /// product 5 v^2: 35 v^2 in all, with the tidying 36 (not quite 2^-100, but less than two of these units, which is what is counted).
+    [[gnu::always_inline]] static Number quotient(const Number& x, const Number& y, Lane inverse) {
+        const Lane q = x.high * inverse;
+        const auto product = two_product<Product>(q, y.high);
+        return {q, (((x.high - product.high) - product.low) + (x.low - q * y.low)) * inverse};
+    }
 };
 
 }  // namespace pierce::detail

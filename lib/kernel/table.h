@@ -27,8 +27,8 @@ struct KernelsOf {
 };
 
 template <class Wide, class Flights = Wide>
-constexpr Backend backend_named(const char* name) {
-    return {name, KernelsOf<Wide, Flights, float>::table(), KernelsOf<Wide, Flights, double>::table()};
+constexpr Backend backend_named(const char* name, const Refine& refine = k_refine) {
+    return {name, KernelsOf<Wide, Flights, float>::table(), KernelsOf<Wide, Flights, double>::table(), &refine};
 }
 
 }  // namespace

@@ -13,13 +13,8 @@ struct Candidate {
     /// An interval that contains the exact fraction.
     double earliest = 0;
     double latest = 1;
+    std::uint32_t place = 0;  ///< of its volumes, in a shortlist
 };
-
-/// The interval around a fraction that was rounded once from its exact value: within 1 ulp, or two steps where it is denormal.
-[[nodiscard]] inline Candidate exact_candidate(TriangleRef triangle, const Decision& decision, double fraction) {
-    const double slack = fraction * 0x1p-52 + 0x1p-1072;
-    return {triangle, decision, fraction - slack, fraction + slack};
-}
 
 /// Whether x comes before y: by the exact fraction, then the caller's face number, then the triangle.
 template <class Scalar>

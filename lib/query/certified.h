@@ -16,9 +16,10 @@ template <class Scalar>
 
 /// Whether the caller's own test takes a hit; `accept` must be given.
 template <class Scalar>
-[[nodiscard]] bool accepted(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate,
+[[nodiscard]] bool accepted(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Measured& measured,
                             const QueryOptions& options, QueryCounters& counters) {
-    const Measures measures = CertifiedFace<double>(scene.corners(candidate.triangle), counters).measures(path, candidate.decision);
+    CertifiedFace<double> face(path, measured, candidate.decision, *scene.backend->refine, counters);
+    const Measures measures = face.measures();
     const Point& w = measures.barycentric;
     return options.accept({scene.face_of(candidate.triangle), scene.number_of(candidate.triangle), candidate.decision.side,
                            candidate.decision.feature, candidate.decision.feature_index, candidate.decision.at_start,
@@ -28,30 +29,48 @@ template <class Scalar>
 /// All that is certified about a triangle that the wide kernels leave: whether it is hit, sides of its plane, values. (A policy, so that
 /// the benchmark can put another in its place and measure what certainty costs.)
 struct Certified {
-    /// Whether the path hits, unless the hit lies beyond `limit`.
-    static bool test(const Corners& corners, TriangleRef triangle, const Path& path, Sides sides, double limit,
-                     QueryCounters& counters, Candidate& candidate) {
-        Filtered filtered = filter(corners, path, sides);
-        if (filtered.verdict == Verdict::doubtful) filtered = finer_filter(corners, path, sides);
+    /// Whether the path hits, unless the hit lies beyond `limit`. `measured` is set in any case.
+    template <class Scalar>
+    static bool test(const Corners& corners, TriangleRef triangle, const Path& path, Sides sides, double limit, QueryCounters& counters,
+                     Measured& measured, Candidate& candidate) {
+        measure_path<Scalar>(corners, path, measured);
+        Filtered filtered = filter(measured, sides);
         if (filtered.verdict == Verdict::miss || filtered.earliest > limit) return false;
-        if (filtered.verdict == Verdict::hit) {
-            // Certain of a hit, the filter is certain that it is on neither edge nor corner, and that it is not at the start.
-            candidate = {triangle,
-                         {.hit = true, .side = filtered.side, .feature = Feature::face, .feature_index = 0, .at_start = false},
-                         filtered.earliest,
-                         filtered.latest};
-            return true;
-        }
-        ++counters.exact_decisions;
-        const Decision decision = decide(path, corners, sides);
-        if (!decision.hit) return false;
-        candidate = exact_candidate(triangle, decision, CertifiedFace<double>(corners, counters).measures(path, decision).fraction);
+        if (filtered.verdict == Verdict::doubtful && !decided(corners, path, sides, measured, counters, filtered)) return false;
+        candidate.triangle = triangle;
+        candidate.decision = filtered.decision;
+        candidate.earliest = filtered.earliest;
+        candidate.latest = filtered.latest;
         return true;
     }
 
-    /// Normal, values and sides of one that is hit.
+    /// Normal, values and place of one that is hit.
     template <class Scalar>
     using Face = CertifiedFace<Scalar>;
+
+  private:
+    [[gnu::noinline]] static bool decided(const Corners& corners, const Path& path, Sides sides, const Measured& measured, QueryCounters& counters,
+                                          Filtered& filtered) {
+        const Filtered finer = finer_filter(measured, sides);
+        if (finer.verdict != Verdict::doubtful) {
+            filtered = finer;
+            return finer.verdict == Verdict::hit;
+        }
+        ++counters.exact_decisions;
+        filtered.decision = decide(path, corners, sides);
+        if (!filtered.decision.hit) return false;
+        if (filtered.decision.at_start) {
+            filtered.earliest = filtered.latest = 0;
+        } else if (filtered.latest - filtered.earliest > 0x1p-20) {
+            // Nothing useful is known of the fraction. One rounded once is within 1 ulp, or two steps where it is denormal.
+            ++counters.exact_values;
+            const double fraction = measure(path, corners).fraction;
+            const double slack = fraction * 0x1p-52 + 0x1p-1072;
+            filtered.earliest = fraction - slack;
+            filtered.latest = fraction + slack;
+        }
+        return true;
+    }
 };
 
 }  // namespace pierce::detail

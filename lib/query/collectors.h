@@ -10,16 +10,42 @@
 
 namespace pierce::detail {
 
+/// The triangles that the wide kernels left; if `complete`, all that could stop a point on a way within `Scene::near_bound`
+/// of the path, so that the verified point needs no second traversal. Of the first `k_measured` it keeps the volumes, and of the
+/// best candidate, wherever it comes.
+template <unsigned most_measured>
+struct Shortlist {
+    static constexpr unsigned k_measured = most_measured;
+
+    void add(TriangleRef triangle) {
+        if (count == triangles.size()) complete = false;
+        else triangles[count++] = triangle;
+    }
+
+    std::array<TriangleRef, 64> triangles;
+    std::array<Measured, k_measured + 2> measured;
+    unsigned count = 0;
+    bool complete = true;
+};
+
 /// Keeps the hit that comes before all others.
-template <class Scalar>
+template <class Scalar, unsigned most_measured = 8>
 class First {
   public:
+    using List = Shortlist<most_measured>;
+
     First(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters)
         : scene_(scene), path_(path), counters_(counters) {}
 
     [[nodiscard]] double limit() const { return best().latest; }
     [[nodiscard]] bool wants(TriangleRef) const { return true; }
     [[nodiscard]] Candidate& room() { return candidates_[1 - best_]; }
+    [[nodiscard]] Measured& measured() {
+        const std::size_t place = list_.count < List::k_measured ? list_.count : List::k_measured + 1 - best_;
+        room().place = static_cast<std::uint32_t>(place);
+        return list_.measured[place];
+    }
+    void seen(TriangleRef triangle) { list_.add(triangle); }
     void add() {
         if (found_ && !comes_before(scene_, path_, room(), best(), counters_)) return;
         best_ = 1 - best_;
@@ -27,6 +53,8 @@ class First {
     }
     [[nodiscard]] bool found() const { return found_; }
     [[nodiscard]] const Candidate& best() const { return candidates_[best_]; }
+    [[nodiscard]] const Measured& best_measured() const { return list_.measured[best().place]; }
+    [[nodiscard]] const List& list() const { return list_; }
 
   private:
     const Scene<Scalar>& scene_;
@@ -35,6 +63,7 @@ class First {
     std::array<Candidate, 2> candidates_;
     std::size_t best_ = 0;
     bool found_ = false;
+    List list_;
 };
 
 /// The first but those of one triangle and those that `passed(triangle)` says are known already.
@@ -63,6 +92,8 @@ class Any {
     [[nodiscard]] double limit() const { return found_ ? -1 : 1; }
     [[nodiscard]] bool wants(TriangleRef triangle) const { return !found_ && triangle != own_; }
     [[nodiscard]] Candidate& room() { return candidate_; }
+    [[nodiscard]] Measured& measured() { return measured_; }
+    void seen(TriangleRef) {}
     void add() { found_ = !passed_(candidate_.triangle); }
     [[nodiscard]] bool found() const { return found_; }
 
@@ -71,6 +102,7 @@ class Any {
     TriangleRef own_;
     Candidate candidate_;
     bool found_ = false;
+    Measured measured_;
 };
 
 /// Counts every hit and keeps the first ones in `out`: as a heap with the last of them on top (Williams 1964), so that
@@ -85,6 +117,8 @@ class All {
     [[nodiscard]] double limit() const { return 1; }
     [[nodiscard]] bool wants(TriangleRef) const { return true; }
     [[nodiscard]] Candidate& room() { return candidate_; }
+    [[nodiscard]] Measured& measured() { return measured_; }
+    void seen(TriangleRef) {}
     void add() {
         ++total_;
         if (out_.empty()) return;
@@ -126,8 +160,8 @@ class All {
         hit.feature = candidate_.decision.feature;
         hit.feature_index = candidate_.decision.feature_index;
         hit.at_start = candidate_.decision.at_start;
-        hit.exact_fraction = static_cast<Scalar>(
-            CertifiedFace<Scalar>(scene_.corners(candidate_.triangle), counters_).measures(path_, candidate_.decision).fraction);
+        CertifiedFace<Scalar> face(path_, measured_, candidate_.decision, *scene_.backend->refine, counters_);
+        hit.exact_fraction = static_cast<Scalar>(face.measures().fraction);
     }
 
     const Scene<Scalar>& scene_;
@@ -135,6 +169,7 @@ class All {
     std::span<Hit<Scalar>> out_;
     QueryCounters& counters_;
     Candidate candidate_;
+    Measured measured_;
     std::size_t total_ = 0;
     std::size_t kept_ = 0;
 };

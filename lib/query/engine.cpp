@@ -44,14 +44,17 @@ std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
         // Hits that count and come strictly before. One that `accept` refuses on the way to `to` may count on the way to the point.
         const auto passed = [&](TriangleRef triangle) {
             Candidate other;
+            Measured measured;
             if (masked(scene, triangle, options)) return false;
-            if (!Certified::test(scene.corners(triangle), triangle, path, options.sides, 1, counters, other)) return false;
-            if (options.accept && !accepted(scene, path, other, options, counters)) return false;
+            if (!Certified::test<Scalar>(scene.corners(triangle), triangle, path, options.sides, 1, counters, measured, other)) return false;
+            if (options.accept && !accepted(scene, path, other, measured, options, counters)) return false;
             if (other.latest < candidate.earliest) return true;
             return other.earliest <= candidate.latest &&
                    compare_fractions(path, scene.corners(triangle), scene.corners(candidate.triangle)) < 0;
         };
-        answer<Certified>(scene, path, candidate, passed, options, counters, nullptr, out[i]);
+        Measured measured;
+        measure_path<Scalar>(scene.corners(candidate.triangle), path, measured);
+        answer<Certified>(scene, path, candidate, measured, passed, options, counters, k_no_list, out[i]);
     }
     return all.total();
 }
@@ -65,9 +68,11 @@ int crossings_of(const Scene<Scalar>& scene, const Path& path, QueryCounters& co
     each_candidate(scene, path, Sides::both, 1, counters, [&](ClusterRef cluster, unsigned lanes) {
         for (; lanes != 0; lanes &= lanes - 1) {
             const Corners corners = scene.corners({cluster, static_cast<std::uint32_t>(std::countr_zero(lanes))});
-            const Filtered filtered = filter(corners, path, Sides::both);
+            Measured measured;
+            measure_path<Scalar>(corners, path, measured);
+            const Filtered filtered = filter_strictly(FilterVolumes(measured), VolumeErrors(measured), measured.tame, Sides::both);
             if (filtered.verdict == Verdict::hit) {
-                sum += filtered.side == Sides::front ? 1 : -1;
+                sum += filtered.decision.side == Sides::front ? 1 : -1;
             } else if (filtered.verdict == Verdict::doubtful) {
                 ++counters.exact_decisions;
                 sum += crossing(path, corners);

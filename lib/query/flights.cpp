@@ -9,8 +9,8 @@ namespace {
 
 /// A batch of one kind of query. `Query` is the state of one in flight:
 ///   Query(batch, i)       for query i
-///   collector(), list()   as traverse() takes them
-///   void finish(batch)    writes the answer
+///   path, collector       as traverse() takes them
+///   finish(batch)         writes the answer
 template <class Scalar>
 struct Batch {
     const Scene<Scalar>& scene;
@@ -46,18 +46,17 @@ struct FirstQuery {
     FirstQuery(const FirstQuery&) = delete;
     FirstQuery& operator=(const FirstQuery&) = delete;
 
-    Shortlist* shortlist() { return &list; }
     void finish(Batch<Scalar>& batch) {
         if (!collector.found()) return;
         ++batch.hits;
         Answer& hit = out.emplace();
-        answer<Certified, Scalar>(batch.scene, path, collector.best(), none_passed, batch.options, batch.counters, &list, hit);
+        answer<Certified, Scalar>(batch.scene, path, collector.best(), collector.best_measured(), none_passed, batch.options,
+                                  batch.counters, &collector.list(), hit);
         if constexpr (std::is_same_v<Answer, SweepHit<Scalar>>) hit.time_of_impact = hit.fraction;
     }
 
     Path path;
-    First<Scalar> collector;
-    Shortlist list;
+    First<Scalar, 2> collector;  // all of those in flight are on the stack
     Out& out;
 };
 
@@ -67,7 +66,6 @@ struct AnyQuery {
 
     AnyQuery(const Batch<Scalar>&, const Path& whole, Out& answer) : path(whole), collector(none_passed), out(answer) {}
 
-    Shortlist* shortlist() { return nullptr; }
     void finish(Batch<Scalar>& batch) {
         out = collector.found() ? 1 : 0;
         batch.hits += out;
@@ -85,7 +83,7 @@ void one_by_one(Batch<Scalar>& batch, typename Query::Out* out) {
         out[batch.next] = {};
         if (!batch.read_path(batch.next, path)) continue;
         Query query(batch, path, out[batch.next]);
-        traverse<Certified>(batch.scene, query.path, batch.options, batch.counters, query.collector, query.shortlist());
+        traverse<Certified>(batch.scene, query.path, batch.options, batch.counters, query.collector);
         query.finish(batch);
     }
 }
@@ -133,7 +131,8 @@ class InFlight {
         Slot& slot = slots_[at];
         Query& query = *slot.query;
         return slot.limit = use_cluster(batch_.scene, *slot.probe, cluster, lanes, slot.limit, batch_.counters, [&](ClusterRef which, unsigned bits) {
-            return test_cluster<Certified>(batch_.scene, query.path, which, bits, batch_.options, batch_.counters, query.collector, query.shortlist());
+            return test_cluster<Certified>(batch_.scene, query.path, which, bits, batch_.options, batch_.options.max_fraction,
+                                           batch_.counters, query.collector);
         });
     }
 

@@ -19,7 +19,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <exact/place.h>
@@ -40,17 +42,18 @@ class PlaceSearch {
     PlaceSearch(const Path& path, const Corners& corners, Sides side, double grain, const Spot* spot,
                 const Point& position, const Point& normal,
                 QueryCounters& counters, const Ways& ways)
-        : path_(path), corners_(corners), grain_(grain), unit_(grain / k_grain_units), spot_(spot), counters_(counters),
-          ways_(ways) {
+        : path_(path), corners_(corners), grain_(grain), unit_(grain / k_grain_units), per_unit_(1 / (unit_ * k_up)), spot_(spot),
+          counters_(counters), ways_(ways) {
         const Point& n = spot != nullptr ? spot->normal : normal;
         length_ = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        const double inverse = 1 / length_;
         reach_ = k_reach_units - (spot != nullptr ? 0.125 : 1);
         double off = grain;
         const double sign = side == Sides::front ? 1 : -1;
         if (spot != nullptr) {
             high_ = spot->high;
             low_ = spot->low;
-            off = std::min(grain, spot->distance / length_);
+            off = std::min(grain, spot->distance * inverse);
         } else {
             high_ = position;
             double distance = 0;
@@ -60,7 +63,7 @@ class PlaceSearch {
         off_length_ = off;
         for (std::size_t k = 0; k < 3; ++k) {
             out_[k] = sign * n[k];
-            unit_normal_[k] = out_[k] / length_;
+            unit_normal_[k] = out_[k] * inverse;
             off_[k] = off * unit_normal_[k];
         }
     }
@@ -188,8 +191,9 @@ class PlaceSearch {
             const double beyond = (point[k] - high_[k]) - by[k];
             const bool inwards = (beyond < 0 && out_[k] > 0) || (beyond > 0 && out_[k] < 0);
             const bool turned = rounding == k_outwards ? inwards : (rounding >> k & 1U) != 0 && beyond != 0;
-            if (turned) point[k] = next_to<Scalar>(point[k], -beyond);
-            const double x = ((point[k] - high_[k]) - low_[k]) / unit_;
+            const double next = next_to<Scalar>(point[k], -beyond);  // no branch: which way it goes can't be predicted
+            point[k] = turned ? next : point[k];
+            const double x = ((point[k] - high_[k]) - low_[k]) * k_up * per_unit_;
             square += x * x;
         }
         if (!(square <= reach_ * reach_)) return Tried::unfit;  // or not finite
@@ -273,6 +277,8 @@ class PlaceSearch {
     const Corners& corners_;
     double grain_;
     double unit_;
+    static constexpr double k_up = 0x1p60;  ///< or the inverse of a subnormal unit would be infinite
+    double per_unit_;
     const Spot* spot_;
     QueryCounters& counters_;
     const Ways& ways_;
@@ -311,13 +317,12 @@ int place(const Path& path, const Corners& corners, const Decision& decision, do
         hit.fraction = 0;
         for (int k = 0; k < 3; ++k) hit.point[k] = static_cast<Scalar>(path.from[static_cast<std::size_t>(k)]);
     } else {
-        Spot spot;
-        const Located located = face.locate(path, grain / k_grain_units, spot, position);
+        const Located located = face.locate(grain / k_grain_units, position);
         if (!located.rounded) {
             ++counters.exact_values;
             position = exact_position<Scalar>(path, corners);
         }
-        PlaceSearch<Scalar, Ways> search(path, corners, decision.side, grain, located.spot ? &spot : nullptr, position,
+        PlaceSearch<Scalar, Ways> search(path, corners, decision.side, grain, located.spot, position,
                                          face.normal(), counters, ways);
         tries = search.find(exact, hit);
     }

@@ -13,10 +13,10 @@ namespace pierce::detail {
 template <class Scalar>
 void report(const Measures& measures, const Point& normal, const Decision& decision, std::uint32_t face, std::uint32_t triangle,
             Hit<Scalar>& hit) {
-    const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    const double inverse = 1 / std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     for (int k = 0; k < 3; ++k) {
         const auto at = static_cast<std::size_t>(k);
-        hit.normal[k] = static_cast<Scalar>(normal[at] / length);
+        hit.normal[k] = static_cast<Scalar>(normal[at] * inverse);
         hit.barycentric[k] = static_cast<Scalar>(measures.barycentric[at]);
     }
     hit.exact_fraction = static_cast<Scalar>(measures.fraction);

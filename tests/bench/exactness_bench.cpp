@@ -1,8 +1,9 @@
 // What certainty costs: how often the exact room is entered on real meshes, and the time of exact first hits over that of their inexact
-// twin. Where the two find different triangles, it says how often. And what the verified point costs: the time with it over the time without.
+// twin. Where the two find different triangles, it says how often. And what each part of an answer costs.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <string>
 #include <vector>
 
 #include <query/answer.h>
@@ -15,36 +16,40 @@ namespace {
 
 using namespace detail;
 
-/// The inexact twin: the same code with the sign of each double taken as final, and values and normals straight from the doubles. A plain
+/// The inexact twin: the same code with the sign of each double taken as final, and values, normals and places straight from the doubles. A plain
 /// floating-point library, in effect.
 struct Trusting {
-    static constexpr float unit = 0;
-
-    static bool test(const Corners& corners, std::uint32_t triangle, const Path& path, Sides sides, double limit, QueryCounters&,
+    template <class Scalar>
+    static bool test(const Corners& corners, TriangleRef triangle, const Path& path, Sides sides, double limit, QueryCounters&, Measured& x,
                      Candidate& candidate) {
-        const Volumes64 x(corners, path);
-        const double end = x.v - x.s;
-        const bool front = sides != Sides::back && x.v <= 0 && end > 0;
-        const bool back = sides != Sides::front && x.v >= 0 && end < 0;
+        measure_path<Scalar>(corners, path, x);
+        const double end = x.v() - x.s();
+        const bool front = sides != Sides::back && x.v() <= 0 && end > 0;
+        const bool back = sides != Sides::front && x.v() >= 0 && end < 0;
         if (!front && !back) return false;
-        const auto [lowest, highest] = std::minmax({x.weight[0], x.weight[1], x.weight[2]});
-        if (front ? highest > 0 : lowest < 0) return false;
-        const double fraction = x.v / x.s;
+        const double a = x.s() - x.b() - x.c();
+        if (front ? std::max({a, x.b(), x.c()}) > 0 : std::min({a, x.b(), x.c()}) < 0) return false;
+        const double fraction = x.v() / x.s();
         if (!(fraction < limit)) return false;  // so no two hits are ever left to the exact order
-        candidate = {triangle, {.hit = true, .side = front ? Sides::front : Sides::back}, fraction, fraction};
+        candidate.triangle = triangle;
+        candidate.decision = {.hit = true, .side = front ? Sides::front : Sides::back};
+        candidate.earliest = candidate.latest = fraction;
         return true;
     }
     template <class Scalar>
     struct Face {
-        Face(const Corners& corners_, QueryCounters&) : corners(corners_), plane(corners) {}
-        [[nodiscard]] Point normal() const { return {plane.normal.x, plane.normal.y, plane.normal.z}; }
-        [[nodiscard]] Measures measures(const Path& path, const Decision&) const {
-            return quotients(Meeting(plane, path));
+        Face(const Path&, const Measured& measured, const Decision&, const Refine&, QueryCounters&) { evaluate(measured, measured.meeting, values); }
+        [[nodiscard]] Point normal() const { return values.spot.normal; }
+        [[nodiscard]] Measures measures() const {
+            return {values.fraction, {values.barycentric[0], values.barycentric[1], values.barycentric[2]}};
         }
-        [[nodiscard]] int side(const Point& point) const { return dot(difference<double>(point, plane.a), plane.n) >= 0 ? 1 : -1; }
+        [[nodiscard]] Located locate(double, Point& position) {
+            values.spot.error = values.spot.normal_error = {};
+            position = rounded_to<Scalar>(values.spot.high);
+            return {&values.spot, true};
+        }
 
-        const Corners corners;
-        const Plane<double> plane;
+        Values values;
     };
 };
 
@@ -55,21 +60,15 @@ struct Set {
 };
 constexpr Set k_sets[] = {{"short", 0.01, false}, {"medium", 0.1, false}, {"long", 1.5, false}, {"cloud", 0.005, true}};
 
-/// The hit and its values, without a verified point.
 template <class Scalar>
-std::optional<Hit<Scalar>> unverified(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters) {
-    Search<Scalar> search(scene, path, Sides::front);
-    First<Scalar> first(scene, path, counters);
-    traverse<Certified>(search, {}, counters, first);
-    if (!first.found()) return std::nullopt;
-    const Candidate& best = first.best();
-    const Corners corners = scene.corners(best.triangle);
-    CertifiedFace<Scalar> face(corners, counters);
-    const Point normal = face.normal();
-    std::optional<Hit<Scalar>> hit;
-    report(face.measures(path, best.decision), normal, best.decision, scene.face_of(best.triangle), scene.triangle_numbers[best.triangle],
-           hit.emplace());
-    return hit;
+Path path_at(const TriangleSoup<Scalar>& soup, const Extent<Scalar>& extent, const Set& set, Random& random) {
+    const Vec3<double> d = set.length * extent.diagonal() * random.direction();
+    const std::size_t t = random.below(soup.triangles.size());
+    const Vec3<double> w = random.weights();
+    Vec3<double> at = w[0] * corner(soup.view(), t, 0) + w[1] * corner(soup.view(), t, 1) + w[2] * corner(soup.view(), t, 2);
+    if (set.cloud) at = extent.low + (extent.high - extent.low).cwiseProduct(random.in_cube().cwiseAbs());
+    const double before = random.unit();
+    return {to_point(Vec3<Scalar>((at - before * d).template cast<Scalar>())), to_point(Vec3<Scalar>((at + (1 - before) * d).template cast<Scalar>()))};
 }
 
 // Of this thread alone: what others do on the machine meanwhile is not to be counted.
@@ -83,9 +82,7 @@ template <class Kernel, class Scalar>
 double pass(const Scene<Scalar>& scene, const std::vector<Path>& paths, QueryCounters& counters, std::vector<std::uint32_t>& found) {
     const double start = nanoseconds();
     for (std::size_t i = 0; i < paths.size(); ++i) {
-        std::optional<Hit<Scalar>> hit;
-        if constexpr (std::is_void_v<Kernel>) hit = unverified<Scalar>(scene, paths[i], counters);
-        else hit = first_answer<Kernel, Scalar>(scene, paths[i], {}, counters);
+        const std::optional<Hit<Scalar>> hit = first_answer<Kernel, Scalar>(scene, paths[i], {}, counters);
         found[i] = hit ? hit->triangle : ~0U;
     }
     return (nanoseconds() - start) / static_cast<double>(paths.size());
@@ -99,42 +96,29 @@ void measure_mesh(const char* scalar, std::string_view name, std::vector<double>
     for (const Set& set : k_sets) {
         Random random(5);
         std::vector<Path> paths;
-        const double length = set.length * extent.diagonal();
-        for (int i = 0; i < 20'000; ++i) {
-            const Vec3<double> d = length * random.direction();
-            const std::size_t t = random.below(soup.triangles.size());
-            const Vec3<double> w = random.weights();
-            Vec3<double> at = w[0] * corner(soup.view(), t, 0) + w[1] * corner(soup.view(), t, 1) + w[2] * corner(soup.view(), t, 2);
-            if (set.cloud) at = extent.low + (extent.high - extent.low).cwiseProduct(random.in_cube().cwiseAbs());
-            const double before = random.unit();
-            paths.push_back({to_point(Vec3<Scalar>((at - before * d).template cast<Scalar>())),
-                             to_point(Vec3<Scalar>((at + (1 - before) * d).template cast<Scalar>()))});
-        }
+        for (int i = 0; i < 20'000; ++i) paths.push_back(path_at(soup, extent, set, random));
         std::vector<std::uint32_t> exact(paths.size());
         std::vector<std::uint32_t> trusting(paths.size());
         QueryCounters counters;
         QueryCounters unused;
         std::vector<double> quotients;
-        std::vector<double> verified;
         double best = 1e300;
         for (int repeat = 0; repeat < 7; ++repeat) {
             QueryCounters fresh;
             const double a = pass<Certified, Scalar>(scene, paths, fresh, exact);
-            verified.push_back(a / pass<void, Scalar>(scene, paths, unused, trusting));
             quotients.push_back(pass<Trusting, Scalar>(scene, paths, unused, trusting) / a);
             best = std::min(best, a);
             counters = fresh;
         }
         std::nth_element(quotients.begin(), quotients.begin() + 3, quotients.end());
-        std::nth_element(verified.begin(), verified.begin() + 3, verified.end());
         std::size_t hits = 0;
         std::size_t different = 0;
         for (std::size_t i = 0; i < paths.size(); ++i) {
             hits += exact[i] != ~0U ? 1U : 0U;
             different += exact[i] != trusting[i] ? 1U : 0U;
         }
-        std::printf("| %-12s | %-6s | %-6s | %3.0f %% | %7.0f | %5.2f | %5.2f | %9.2e | %6.3f | %6.3f | %zu |\n", std::string(name).c_str(), scalar, set.name,
-                    100.0 * double(hits) / double(paths.size()), best, 1 / quotients[3], verified[3],
+        std::printf("| %-12s | %-6s | %-6s | %3.0f %% | %7.0f | %5.2f | %9.2e | %6.3f | %6.3f | %zu |\n", std::string(name).c_str(), scalar, set.name,
+                    100.0 * double(hits) / double(paths.size()), best, 1 / quotients[3],
                     double(counters.exact_decisions) / double(counters.triangles), double(counters.exact_values) / double(paths.size()),
                     double(counters.exact_sides) / double(paths.size()), different);
         ratios.push_back(quotients[3]);
@@ -163,18 +147,102 @@ double measure_all(const char* scalar) {
                 double(all.exact_decisions + all.exact_orders + all.exact_values + all.exact_sides) / tests);
     std::printf("a query, %s: exact orders %.2e, values %.2e, sides %.2e\n", scalar, double(all.exact_orders) / queries,
                 double(all.exact_values) / queries, double(all.exact_sides) / queries);
-    std::printf("ratio ours.exactness.%s %.3f\n", scalar, ratio);
     return ratio;
 }
 
 }  // namespace
 }  // namespace pierce::test
 
+namespace pierce::test {
+namespace {
+
+/// Up to which part an answer goes.
+enum class Until { filter, values, place, all };
+
+template <Until until, class Scalar>
+void answer_until(const Scene<Scalar>& scene, const Path& path, const std::vector<TriangleRef>& triangles, const QueryOptions& options,
+                  QueryCounters& counters, Hit<Scalar>& hit) {
+    First<Scalar> first(scene, path, counters);
+    for (const TriangleRef triangle : triangles) {
+        test_triangle<Certified>(scene, path, triangle, options, 1, counters, first);
+        first.seen(triangle);
+    }
+    const Candidate& best = first.best();
+    hit.fraction = static_cast<Scalar>(best.earliest);
+    if constexpr (until == Until::all) {
+        answer<Certified>(scene, path, best, first.best_measured(), none_passed, options, counters, &first.list(), hit);
+    } else if constexpr (until != Until::filter) {
+        CertifiedFace<Scalar> face(path, first.best_measured(), best.decision, *scene.backend->refine, counters);
+        const std::uint32_t number = scene.number_of(best.triangle);
+        const Measures measures = face.measures();
+        report(measures, face.normal(), best.decision, scene.face_of_number(number), number, hit);
+        if constexpr (until == Until::values) return;
+        const auto clear = [](const Point&, bool) { return true; };
+        place<Scalar>(path, corners_of(first.best_measured()), best.decision, scene.grain, measures.fraction, face, counters, clear, hit);
+    }
+}
+
+/// Prints what each part of an answer costs, from the triangles that the wide kernels left: medians over chunks of hits, of each the least of many times.
+template <class Scalar>
+void measure_parts(const char* scalar, std::string_view name) {
+    const TriangleSoup<Scalar> soup = real_mesh<Scalar>(name);
+    const Scene<Scalar> scene = make_scene(soup.view(), {});
+    const Extent<Scalar> extent(soup.view());
+    Random random(5);
+    const QueryOptions options;
+    QueryCounters counters;
+    std::vector<Path> paths;
+    std::vector<std::vector<TriangleRef>> lists;
+    while (paths.size() < 1000) {
+        const Path path = path_at(soup, extent, k_sets[1], random);
+        First<Scalar> first(scene, path, counters);
+        traverse<Certified>(scene, path, {}, counters, first);
+        if (!first.found() || !first.list().complete) continue;
+        paths.push_back(path);
+        lists.emplace_back(first.list().triangles.begin(), first.list().triangles.begin() + first.list().count);
+    }
+    constexpr std::size_t k_chunk = 20;
+    std::array<std::vector<double>, 4> least;
+    std::vector<Hit<Scalar>> hits(paths.size());
+    for (std::size_t begin = 0; begin < paths.size(); begin += k_chunk) {
+        const auto time = [&]<Until until>(std::integral_constant<Until, until>) {
+            double& best = least[static_cast<std::size_t>(until)].back();
+            const double start = nanoseconds();
+            for (int again = 0; again < 5; ++again)
+                for (std::size_t i = begin; i < begin + k_chunk; ++i) answer_until<until>(scene, paths[i], lists[i], options, counters, hits[i]);
+            best = std::min(best, (nanoseconds() - start) / (5 * k_chunk));
+        };
+        for (std::vector<double>& of_part : least) of_part.push_back(1e300);
+        for (int repeat = 0; repeat < 20; ++repeat) {
+            time(std::integral_constant<Until, Until::filter>());
+            time(std::integral_constant<Until, Until::values>());
+            time(std::integral_constant<Until, Until::place>());
+            time(std::integral_constant<Until, Until::all>());
+        }
+    }
+    std::array<double, 4> median{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        std::nth_element(least[i].begin(), least[i].begin() + static_cast<std::ptrdiff_t>(least[i].size() / 2), least[i].end());
+        median[i] = least[i][least[i].size() / 2];
+    }
+    std::printf("| %-12s | %-6s | %6.1f | %6.1f | %6.1f | %6.1f | %6.1f |\n", std::string(name).c_str(), scalar, median[0], median[1] - median[0],
+                median[2] - median[1], median[3] - median[2], median[3]);
+}
+
+}  // namespace
+}  // namespace pierce::test
+
 int main() {
-    std::puts("| mesh         | scalar | set    | hits | ns exact | cost | verified point | exact decisions a test | exact values | "
+    std::puts("| mesh         | scalar | ns filter | values | place | others | all |");
+    std::puts("|---|---|---|---|---|---|---|");
+    for (const std::string_view name : {"elephant", "fandisk", "bull"}) {
+        pierce::test::measure_parts<float>("float", name);
+        pierce::test::measure_parts<double>("double", name);
+    }
+    std::puts("| mesh         | scalar | set    | hits | ns exact | cost | exact decisions a test | exact values | "
               "exact sides | different |");
-    std::puts("|---|---|---|---|---|---|---|---|---|---|---|");
+    std::puts("|---|---|---|---|---|---|---|---|---|---|");
     const double of_float = pierce::test::measure_all<float>("float");
     const double of_double = pierce::test::measure_all<double>("double");
-    std::printf("ratio ours.exactness %.3f\n", std::min(of_float, of_double));
+    std::printf("ratio ours.exactness.float %.3f\nratio ours.exactness.double %.3f\n", of_float, of_double);
 }

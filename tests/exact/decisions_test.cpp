@@ -26,14 +26,16 @@ void check(const Pair& pair, Sides sides, bool truth, Tally& tally) {
     ++tally.decisions;
     tally.hits += truth ? 1 : 0;
     if (detail::has_zero_area(pair.corners)) return;
-    const Filtered filtered = detail::filter(pair.corners, pair.path, sides);
+    detail::Measured measured;
+    detail::measure_path<double>(pair.corners, pair.path, measured);
+    const Filtered filtered = detail::filter(measured, sides);
     if (filtered.verdict == Verdict::doubtful) return;
     ++tally.certain;
     ASSERT_EQ(filtered.verdict == Verdict::hit, truth) << "the filter was certain: " << describe(pair);
     if (!truth) return;
-    ASSERT_EQ(filtered.side, decision.side) << describe(pair);
-    ASSERT_EQ(decision.feature, Feature::face) << describe(pair);
-    ASSERT_FALSE(decision.at_start) << describe(pair);
+    ASSERT_EQ(filtered.decision.side, decision.side) << describe(pair);
+    ASSERT_EQ(filtered.decision.feature, decision.feature) << describe(pair);
+    ASSERT_EQ(filtered.decision.at_start, decision.at_start) << describe(pair);
     ASSERT_TRUE(detail::fraction_at_most(pair.path, pair.corners, filtered.latest)) << describe(pair);
     ASSERT_FALSE(detail::fraction_at_most(pair.path, pair.corners, std::nextafter(filtered.earliest, -1))) << describe(pair);
 }

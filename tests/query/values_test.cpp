@@ -45,10 +45,14 @@ void check_values() {
         ASSERT_EQ(hit.has_value(), exact.hit(Sides::both)) << describe(pair);
         if (!hit) continue;
         ++hits;
-        const detail::Plane<double> plane(pair.corners);
         constexpr double tolerance = detail::CertifiedFace<Scalar>::k_tolerance;
+        detail::Measured measured;
+        detail::Values values;
+        detail::measure_path<Scalar>(pair.corners, pair.path, measured);
+        detail::evaluate(measured, measured.meeting, values);
         if (counters.exact_values > 0) ++exact_values;
-        else if (detail::Meeting(plane, pair.path).within(tolerance) && plane.has_normal(tolerance)) ++coarse;
+        else if (values.good && values.weight_error <= tolerance && values.fraction_error <= tolerance * values.fraction &&
+                 values.normal_error <= tolerance * values.length) ++coarse;
         else ++fine;
         exact_sides += counters.exact_sides > 0 ? 1 : 0;
         fraction = std::max(fraction, steps(hit->exact_fraction, exact.fraction(), CGAL::to_double(exact.fraction())));

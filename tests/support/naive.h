@@ -92,7 +92,9 @@ class NaiveMesh {
                 continue;
             if (options.accept) {
                 QueryCounters unused;
-                const detail::Measures m = detail::CertifiedFace<double>(corners_[i], unused).measures(path, decision);
+                detail::Measured measured;
+                detail::measure_path<Scalar>(corners_[i], path, measured);
+                const detail::Measures m = detail::CertifiedFace<double>(path, measured, decision, detail::k_refine, unused).measures();
                 if (!options.accept({faces_[i], i, decision.side, decision.feature, decision.feature_index,
                                      decision.at_start, m.fraction, {m.barycentric[0], m.barycentric[1], m.barycentric[2]}}))
                     continue;
@@ -139,10 +141,13 @@ class NaiveMesh {
                                        const QueryOptions& options) const {
         const std::uint32_t triangle = found[i].triangle;
         QueryCounters unused;
-        detail::CertifiedFace<Scalar> face(corners_[triangle], unused);
+        detail::Measured measured;
+        detail::measure_path<Scalar>(corners_[triangle], path, measured);
+        // In the plain arithmetic, whatever the library uses on this machine.
+        detail::CertifiedFace<Scalar> face(path, measured, found[i].decision, detail::k_refine, unused);
         const detail::Point normal = face.normal();
         Hit<Scalar> hit{};
-        const detail::Measures measures = face.measures(path, found[i].decision);
+        const detail::Measures measures = face.measures();
         detail::report(measures, normal, found[i].decision, faces_[triangle], triangle, hit);
         QueryOptions whole = options;
         whole.max_fraction = 1;
