@@ -14,8 +14,8 @@ constexpr unsigned k_most_in_cluster = 8;
 constexpr std::size_t k_most_triangles = std::size_t{1} << 28;
 
 [[nodiscard]] constexpr ClusterRef cluster_ref(std::uint32_t first, unsigned count) { return k_leaf_bit | (count - 1) << 28 | first; }
-[[nodiscard]] constexpr unsigned count_of(ClusterRef ref) { return (ref >> 28 & 7) + 1; }
-[[nodiscard]] constexpr std::uint32_t first_of(ClusterRef ref) { return ref & 0x0fffffffU; }
+[[nodiscard, gnu::always_inline]] constexpr unsigned count_of(ClusterRef ref) { return (ref >> 28 & 7) + 1; }
+[[nodiscard, gnu::always_inline]] constexpr std::uint32_t first_of(ClusterRef ref) { return ref & 0x0fffffffU; }
 
 /// Scalars that a triangle takes in its record: nine coordinates and its number.
 constexpr std::size_t k_row_count = 10;
