@@ -4,7 +4,7 @@
 #include <cluster/record.h>
 #include <kernel/flight.h>
 #include <kernel/probe.h>
-#include <kernel/refine.h>
+#include <kernel/refine_function.h>
 #include <node.h>
 
 namespace pierce::detail {

@@ -73,8 +73,7 @@ inline void set_interval(const FilterVolumes& x, const VolumeErrors& e, Filtered
 
 /// Strict inequalities between exact values: a hit touches neither an edge nor a plane, so the closed rule and every perturbation of it agree. A miss
 /// does not even touch.
-[[nodiscard]] inline Filtered filter_strictly(const FilterVolumes& x, const VolumeErrors& e, bool tame, Sides sides) {
-    if (!tame) return {Verdict::doubtful};
+[[nodiscard]] inline Filtered filter_volumes(const FilterVolumes& x, const VolumeErrors& e, Sides sides) {
     const double v = x.v;
     const double end = x.end;
     const bool front = sides != Sides::back && !(v > e.v) && !(end < -e.end);
@@ -95,6 +94,10 @@ inline void set_interval(const FilterVolumes& x, const VolumeErrors& e, Filtered
     filtered.decision.hit = true;
     filtered.decision.side = front ? Sides::front : Sides::back;
     return filtered;
+}
+
+[[nodiscard]] inline Filtered filter_strictly(const Measured& x, const VolumeErrors& e, Sides sides) {
+    return x.tame ? filter_volumes(FilterVolumes(x), e, sides) : Filtered{Verdict::doubtful};
 }
 
 /// The closed rule where some volumes are certainly 0, as those of planes, edges and starts along axes are: each product in them is.
@@ -130,7 +133,7 @@ inline void set_interval(const FilterVolumes& x, const VolumeErrors& e, Filtered
 /// Never wrong about a hit, with its side and feature, or a miss by the closed rule.
 [[nodiscard]] inline Filtered filter(const Measured& x, Sides sides) {
     const VolumeErrors errors(x);
-    Filtered filtered = filter_strictly(FilterVolumes(x), errors, x.tame, sides);
+    Filtered filtered = filter_strictly(x, errors, sides);
     if (filtered.verdict != Verdict::doubtful || !x.tame) return filtered;
     filtered.verdict = settle(x, errors, sides, filtered.decision);
     if (filtered.decision.at_start) filtered.earliest = filtered.latest = 0;

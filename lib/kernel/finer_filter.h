@@ -13,6 +13,7 @@ namespace pierce::detail {
 
 /// Never wrong when it says hit or miss, for the reasons that the filter is not.
 [[nodiscard]] [[gnu::noinline]] inline Filtered finer_filter(const Measured& bars, Sides sides) {
+    if (!bars.tame) return {Verdict::doubtful};
     using Number = BasicDoubleDouble<Pair, Dekker>;
     using A = Arithmetic<Number>;
     Meeting<Number> x;
@@ -23,7 +24,7 @@ namespace pierce::detail {
     const auto c = -lane(x.vc, 1);
     using S = Arithmetic<A::Single>;
     const FilterVolumes volumes(S::rounded(s), S::rounded(v), S::rounded(b), S::rounded(c), S::rounded(s - b - c), S::rounded(v - s));
-    return filter_strictly(volumes, VolumeErrors(bars, A::unit * (1 + 0x1p-50)), bars.tame, sides);
+    return filter_volumes(volumes, VolumeErrors(bars, A::unit * (1 + 0x1p-50)), sides);
 }
 
 }  // namespace pierce::detail

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <kernel/meeting.h>
+#include <kernel/refine_function.h>
 #include <kernel/spot.h>
 
 namespace pierce::detail {
@@ -136,11 +137,5 @@ template <class Product>
     meet(bars.lines, finer);
     evaluate(bars, finer, values);
 }
-
-/// The same bits on every machine.
-using Refine = void (*)(const Measured& bars, Values& values);
-// One for each file refine_*.cpp.
-extern const Refine k_refine;
-extern const Refine k_refine_fused;
 
 }  // namespace pierce::detail

@@ -70,7 +70,7 @@ int crossings_of(const Scene<Scalar>& scene, const Path& path, QueryCounters& co
             const Corners corners = scene.corners({cluster, static_cast<std::uint32_t>(std::countr_zero(lanes))});
             Measured measured;
             measure_path<Scalar>(corners, path, measured);
-            const Filtered filtered = filter_strictly(FilterVolumes(measured), VolumeErrors(measured), measured.tame, Sides::both);
+            const Filtered filtered = filter_strictly(measured, VolumeErrors(measured), Sides::both);
             if (filtered.verdict == Verdict::hit) {
                 sum += filtered.decision.side == Sides::front ? 1 : -1;
             } else if (filtered.verdict == Verdict::doubtful) {

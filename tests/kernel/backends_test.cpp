@@ -159,7 +159,9 @@ class Judge {
     }
 
     bool is_hit(const Path& path, const Corners& corners, Sides sides) {
-        const Filtered filtered = filter(corners, path, sides);
+        Measured measured;
+        measure_path<double>(corners, path, measured);
+        const Filtered filtered = filter(measured, sides);
         bool hit = filtered.verdict == Verdict::hit;
         if (filtered.verdict == Verdict::doubtful) hit = decide(path, corners, sides).hit;
         if (sides == Sides::both && random_.chance(0.02) && hit != (oracle_.hit_side(path, corners) != 0)) {

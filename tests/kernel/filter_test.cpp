@@ -7,6 +7,7 @@
 #include <exact/decide.h>
 #include <exact/fraction.h>
 #include <kernel/filter.h>
+#include <kernel/finer_filter.h>
 #include <support/gmp_oracle.h>
 #include <support/pairs.h>
 
@@ -20,6 +21,7 @@ struct Tally {
     std::atomic<std::int64_t> hits = 0;
     std::atomic<std::int64_t> certain = 0;
     std::atomic<std::int64_t> touching = 0;  ///< of those, by volumes that are certainly 0
+    std::atomic<std::int64_t> settled = 0;   ///< of what was doubtful, by the finer filter
     std::atomic<std::int64_t> wrong = 0;
 };
 
@@ -37,6 +39,7 @@ void judge(Family family, int power, double offset, Random& random, GmpOracle& o
     std::int64_t hits = 0;
     std::int64_t certain = 0;
     std::int64_t touching = 0;
+    std::int64_t settled = 0;
     for (const Path& path : paths) {
         pair.path = path;
         const int truth = oracle.hit_side(pair.path, pair.corners);
@@ -57,27 +60,37 @@ void judge(Family family, int power, double offset, Random& random, GmpOracle& o
             // What it says strictly it says of the closed rule too; what is a hit lies in the face.
             if (strict != Verdict::doubtful && (strict != filtered.verdict || (strict == Verdict::hit && right.feature != Feature::face)))
                 ADD_FAILURE() << "strictly: " << describe(pair);
-            if (filtered.verdict == Verdict::doubtful) continue;
+            const auto judge_verdict = [&](const char* who, const Filtered& said) {
+                const Decision& d = said.decision;
+                if ((said.verdict == Verdict::hit) != right.hit ||
+                    (right.hit && (d.side != right.side || d.feature != right.feature || d.feature_index != right.feature_index ||
+                                   d.at_start != right.at_start))) {
+                    ++tally.wrong;
+                    ADD_FAILURE() << who << ": " << describe(pair);
+                }
+                if (!right.hit) return;
+                if (!fraction_at_most(pair.path, pair.corners, std::min(1.0, said.latest)) ||
+                    (said.earliest > 0 && fraction_at_most(pair.path, pair.corners, std::nextafter(said.earliest, 0)))) {
+                    ++tally.wrong;
+                    ADD_FAILURE() << who << "'s interval: " << describe(pair);
+                }
+            };
+            const Filtered finer = finer_filter(measured, sides);
+            if (finer.verdict != Verdict::doubtful) judge_verdict("the finer filter", finer);
+            if (filtered.verdict == Verdict::doubtful) {
+                settled += finer.verdict != Verdict::doubtful ? 1 : 0;
+                continue;
+            }
             ++certain;
             touching += strict == Verdict::doubtful ? 1 : 0;
-            const Decision& d = filtered.decision;
-            if ((filtered.verdict == Verdict::hit) != right.hit ||
-                (right.hit && (d.side != right.side || d.feature != right.feature || d.feature_index != right.feature_index || d.at_start != right.at_start))) {
-                ++tally.wrong;
-                ADD_FAILURE() << "the filter: " << describe(pair);
-            }
-            if (!right.hit) continue;
-            if (!fraction_at_most(pair.path, pair.corners, std::min(1.0, filtered.latest)) ||
-                (filtered.earliest > 0 && fraction_at_most(pair.path, pair.corners, std::nextafter(filtered.earliest, 0)))) {
-                ++tally.wrong;
-                ADD_FAILURE() << "the interval: " << describe(pair);
-            }
+            judge_verdict("the filter", filtered);
         }
     }
     tally.decisions += 4;
     tally.hits += hits;
     tally.certain += certain;
     tally.touching += touching;
+    tally.settled += settled;
 }
 
 template <class Scalar>
@@ -105,11 +118,12 @@ void run(std::int64_t decisions, int lowest_power, int highest_power) {
     for (unsigned i = 0; i < count; ++i) threads.emplace_back(work, 1000 + i, decisions / count * 3 / 2);
     for (std::thread& thread : threads) thread.join();
     std::cout << tally.decisions << " decisions, " << tally.hits << " hits, " << tally.certain << " certain of three sides each, "
-              << tally.touching << " of them with volumes of 0, " << tally.wrong << " wrong\n";
+              << tally.touching << " of them with volumes of 0, " << tally.settled << " settled by the finer filter, " << tally.wrong << " wrong\n";
     EXPECT_EQ(tally.wrong, 0);
     EXPECT_GE(tally.decisions, decisions);
     EXPECT_GT(tally.hits, tally.decisions / 20);
     EXPECT_GT(tally.touching, tally.decisions / 200);
+    EXPECT_GT(tally.settled, tally.decisions / 1000);
     EXPECT_GT(tally.certain, tally.decisions * 3 / 5);  // a filter that is always in doubt would be right as well
 }
 

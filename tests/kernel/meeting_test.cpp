@@ -3,6 +3,7 @@
 #include <exact/decide.h>
 #include <kernel/backends.h>
 #include <kernel/filter.h>
+#include <kernel/refine.h>
 #include <support/pairs.h>
 #include <support/whole.h>
 

@@ -81,7 +81,8 @@ void check_values() {
               << " exact; sides of " << exact_sides << " exact\n";
     EXPECT_GT(hits, 3000);
     EXPECT_GT(fine, 500);
-    EXPECT_GT(exact_values, 500);
+    // For float few are left: those of edges and corners are known from volumes, and bounds are rarely too wide.
+    EXPECT_GT(exact_values, sizeof(Scalar) == sizeof(float) ? 10 : 500);
     EXPECT_GT(exact_sides, 10);
     if (std::is_same_v<Scalar, float>) EXPECT_GT(coarse, 500);
     else EXPECT_EQ(coarse, 0);
