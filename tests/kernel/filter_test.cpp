@@ -123,7 +123,10 @@ void run(std::int64_t decisions, int lowest_power, int highest_power) {
     EXPECT_GE(tally.decisions, decisions);
     EXPECT_GT(tally.hits, tally.decisions / 20);
     EXPECT_GT(tally.touching, tally.decisions / 200);
-    EXPECT_GT(tally.settled, tally.decisions / 1000);
+    // Of floats the filter leaves nothing in doubt that is not exactly on a plane or an edge.
+    if (sizeof(Scalar) == sizeof(double)) {
+        EXPECT_GT(tally.settled, tally.decisions / 1000);
+    }
     EXPECT_GT(tally.certain, tally.decisions * 3 / 5);  // a filter that is always in doubt would be right as well
 }
 

@@ -63,7 +63,9 @@ void expect_all_counted() {
     for (const Segment<Scalar>& s : segments) (void)mesh.first_hit(s, {.counters = &single});
     EXPECT_GT(single.exact_decisions, 100U);
     EXPECT_GT(single.exact_orders, 100U);
-    EXPECT_GT(single.exact_values, 100U);
+    // Of floats, numbers of twice a double's precision leave next to nothing in doubt.
+    constexpr bool k_double = sizeof(Scalar) == sizeof(double);
+    EXPECT_GT(single.exact_values, k_double ? 100U : 0U);
     EXPECT_GT(single.exact_sides, 0U);
     EXPECT_GT(single.retreats, 0U);
 
@@ -80,7 +82,9 @@ void expect_all_counted() {
     for (const Segment<Scalar>& s : segments) (void)mesh.any_hit(s, {.accept = no, .counters = &asked});
     QueryCounters unasked;
     for (const Segment<Scalar>& s : segments) (void)mesh.any_hit(s, {.counters = &unasked});
-    EXPECT_GT(asked.exact_values, unasked.exact_values);
+    if (k_double) {
+        EXPECT_GT(asked.exact_values, unasked.exact_values);
+    }
 }
 
 TEST(Counters, count_all_exact_arithmetic_in_float) { expect_all_counted<float>(); }
