@@ -29,12 +29,13 @@ struct Part {
 template <class Scalar>
 void write_part(Part<Scalar>& part, const CornerReader<Scalar>& reader, std::uint64_t* entries,
                 ClusterWriter<Scalar> writer) {
-    RangeCutter<Scalar> cutter(reader, entries);
-    std::vector<Range> stack;
+    const Executor alone;
+    RangeCutter<Scalar> cutter(reader, entries, alone);
     part.boxes.reserve(part.range.size() / 4 + 8);
-    cutter.cut(part.range, k_most_in_cluster, stack, [&](const Range& range) {
-        part.degenerate += writer.write(range, cutter.key_of(range), part.range.end, part.boxes);
-    });
+    cutter.template cut_small<k_most_in_cluster>(
+        part.range, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t key) {
+            part.degenerate += writer.write(begin, end, key, part.range.end, part.boxes);
+        });
 }
 
 // The scene's largest extent times this is in [0.5, 1), halved first since the difference of the largest numbers
@@ -109,9 +110,8 @@ ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero
     std::uint64_t* entries = order.entries.data();
 
     std::vector<Part<Scalar>> parts;
-    std::vector<Range> stack;
-    RangeCutter<Scalar>(reader, entries)
-        .cut({0, static_cast<std::uint32_t>(count), 0, false, false}, k_part, stack, [&](const Range& range) {
+    RangeCutter<Scalar>(reader, entries, executor)
+        .cut({0, static_cast<std::uint32_t>(count), 0, false, false}, k_part, [&](const Range& range) {
             parts.push_back({});
             parts.back().range = range;
         });

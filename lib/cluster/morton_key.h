@@ -64,15 +64,19 @@ class KeyRaster {
     }
     [[nodiscard]] bool flat() const { return flat_; }  ///< all in one place
 
-    /// 30 bits. Rounding may move what lies at a cell's end to the next one: keys are a good order, no more.
-    [[nodiscard, gnu::always_inline]] std::uint32_t key(Quad<Scalar> half_center) const {
-        const Quad<Scalar> cell = (half_center - low_) * unit_ * scale_;
-        IntQuad x = __builtin_convertvector(least(most(cell, all_of<Scalar>(0)), all_of<Scalar>(1023)), IntQuad);
-        x = (x | x << 16) & 0x030000ff;
-        x = (x | x << 8) & 0x0300f00f;
-        x = (x | x << 4) & 0x030c30c3;
-        x = (x | x << 2) & 0x09249249;
-        return static_cast<std::uint32_t>(x[0] | x[1] << 1 | x[2] << 2);
+    /// Of four triangles, whose half centres are given as rows of x, y and z: 30 bits each. Rounding may move what lies at
+    /// a cell's end to the next one: keys are a good order, no more.
+    [[nodiscard, gnu::always_inline]] IntQuad keys(const Quad<Scalar> (&half_centers)[3]) const {
+        IntQuad cells[3];
+        for (int k = 0; k < 3; ++k) {
+            const Quad<Scalar> cell = (half_centers[k] - all_of(low_[k])) * all_of(unit_) * all_of(scale_);
+            IntQuad x = __builtin_convertvector(least(most(cell, all_of<Scalar>(0)), all_of<Scalar>(1023)), IntQuad);
+            x = (x | x << 16) & 0x030000ff;
+            x = (x | x << 8) & 0x0300f00f;
+            x = (x | x << 4) & 0x030c30c3;
+            cells[k] = (x | x << 2) & 0x09249249;
+        }
+        return cells[0] | cells[1] << 1 | cells[2] << 2;
     }
 
   private:
@@ -81,5 +85,18 @@ class KeyRaster {
     Scalar scale_ = 0;
     bool flat_ = false;
 };
+
+/// Entries of up to four triangles, whose half centres are `center(lane)` and whose numbers `number(lane)`.
+template <class Scalar, class Center, class Number>
+[[gnu::always_inline]] inline void put_keys(const KeyRaster<Scalar>& raster, std::size_t count, std::uint64_t* entries,
+                                            Center&& center, Number&& number) {
+    Quad<Scalar> centers[4];
+    for (std::size_t lane = 0; lane < 4; ++lane) centers[lane] = center(std::min(lane, count - 1));
+    Quad<Scalar> rows[3];
+    transpose(centers, rows);
+    const IntQuad keys = raster.keys(rows);
+    for (std::size_t lane = 0; lane < count; ++lane)
+        entries[lane] = std::uint64_t{static_cast<std::uint32_t>(keys[lane])} << 32 | number(lane);
+}
 
 }  // namespace pierce::detail
