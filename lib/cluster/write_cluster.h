@@ -90,6 +90,7 @@ class ClusterWriter {
     // Four triangles from `from` on, or the last ones, to the rows; lanes behind the last have it as well.
     [[gnu::always_inline]] void gather(std::uint32_t begin, unsigned from, std::uint32_t last, QuadBox<Scalar>& all) {
         Quad<Scalar> corners[3][4];
+#pragma GCC unroll 4
         for (unsigned i = 0; i < 4; ++i) {
             const unsigned t = std::min(from + i, count_ - 1);
             const auto number = static_cast<std::uint32_t>(entries_[begin + t]);
@@ -100,7 +101,7 @@ class ClusterWriter {
             all.add({least(a, least(b, c)), most(a, most(b, c))});
             corners[0][i] = a, corners[1][i] = b, corners[2][i] = c;
             numbers_[from + i] = number;
-            if (from + i < count_) ask_ahead(begin + t, last);
+            ask_ahead(begin + from + i, last);  // some twice: a branch that can't be predicted costs more
         }
         Quad<Scalar> rows[9];
         for (int c = 0; c < 3; ++c) transpose(corners[c], rows + 3 * c);
@@ -146,7 +147,12 @@ class ClusterWriter {
         } else {
             for (std::size_t r = 0; r < 9; ++r) std::memcpy(to + r * n, rows_[r].data(), 8 * sizeof(Scalar));
         }
-        for (std::size_t i = 0; i < n; ++i) write_number(to + 9 * n + i, numbers_[i]);
+        if (std::is_same_v<Scalar, float> && n >= 4) {
+            std::memcpy(to + 9 * n, numbers_.data(), 4 * sizeof(std::uint32_t));
+            std::memcpy(to + 10 * n - 4, &numbers_[n - 4], 4 * sizeof(std::uint32_t));
+        } else {
+            for (std::size_t i = 0; i < n; ++i) write_number(to + 9 * n + i, numbers_[i]);
+        }
     }
     [[gnu::always_inline]] static void write_number(Scalar* to, std::uint32_t number) {
         *to = 0;
