@@ -1,6 +1,7 @@
 // Triangles sorted by key, the order cut into ranges of at most eight, each written as a record.
 #include <cluster/make_clusters.h>
 
+#include <algorithm>
 #include <exception>
 
 #include <chunks.h>
@@ -21,7 +22,7 @@ template <class Scalar>
 struct Part {
     Range range;
     std::vector<ClusterBox<Scalar>> boxes;
-    std::size_t degenerate = 0;
+    std::vector<std::uint32_t> degenerate;
     std::size_t first = 0;  // of its boxes among all
     std::exception_ptr failure;
 };
@@ -34,7 +35,7 @@ void write_part(Part<Scalar>& part, const CornerReader<Scalar>& reader, std::uin
     part.boxes.reserve(part.range.size() / 4 + 8);
     cutter.template cut_small<k_most_in_cluster>(
         part.range, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t key) {
-            part.degenerate += writer.write(begin, end, key, part.range.end, part.boxes);
+            writer.write(begin, end, key, part.range.end, part.boxes, part.degenerate);
         });
 }
 
@@ -70,9 +71,10 @@ void join(std::vector<Part<Scalar>>& parts, ClusterBuild<Scalar>& build, const E
     for (std::size_t p = 0; p < parts.size(); ++p) {
         parts[p].first = count;
         count += parts[p].boxes.size();
-        build.degenerate += parts[p].degenerate;
+        build.degenerate.insert(build.degenerate.end(), parts[p].degenerate.begin(), parts[p].degenerate.end());
         all.add(bounds[p]);
     }
+    std::sort(build.degenerate.begin(), build.degenerate.end());
     if (count == 0) return;
     for (int k = 0; k < 3; ++k) {
         build.low[k] = all.low[k];

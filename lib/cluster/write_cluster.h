@@ -55,19 +55,19 @@ class ClusterWriter {
           records_(records) {}
 
     /// The triangles of entries [begin, end), eight at most, which are more than none. `last`: of the entries that may
-    /// be asked of memory ahead. Returns the number of triangles without area.
-    std::size_t write(std::uint32_t begin, std::uint32_t end, std::uint32_t key, std::uint32_t last,
-                      std::vector<ClusterBox<Scalar>>& boxes) {
+    /// be asked of memory ahead. Numbers of those without area are added to `degenerate`.
+    void write(std::uint32_t begin, std::uint32_t end, std::uint32_t key, std::uint32_t last,
+               std::vector<ClusterBox<Scalar>>& boxes, std::vector<std::uint32_t>& degenerate) {
         count_ = end - begin;
         QuadBox<Scalar> all;
         for (unsigned i = 0; i < count_; i += 4) gather(begin, i, last, all);
         if (!all_have_area_) {
             all_have_area_ = true;
-            leave_out_degenerate();
+            leave_out_degenerate(degenerate);
             for (unsigned i = 0; i < count_; ++i) order_[i] = static_cast<std::uint8_t>(i);
             all = box_of_part(0, count_);
         }
-        if (count_ == 0) return end - begin;
+        if (count_ == 0) return;
         if (const Scalar a = area(all); count_ > 1 && a > large_area_) {
             for (unsigned i = 0; i < count_; ++i) order_[i] = static_cast<std::uint8_t>(i);
             split(0, count_, all, begin, key, boxes);
@@ -75,7 +75,6 @@ class ClusterWriter {
             write_rows(begin);
             add_box(all, cluster_ref(begin, count_), key, boxes);
         }
-        return end - begin - count_;
     }
 
   private:
@@ -110,14 +109,17 @@ class ClusterWriter {
         all_have_area_ = all_have_area_ && (have_area[0] & have_area[1] & have_area[2] & have_area[3]) != 0;
     }
     // Of those that it is not certain of, too: these are few.
-    void leave_out_degenerate() {
+    void leave_out_degenerate(std::vector<std::uint32_t>& degenerate) {
         unsigned kept = 0;
         for (unsigned i = 0; i < count_; ++i) {
             Corners corners;
             for (std::size_t r = 0; r < 9; ++r) corners[r / 3][r % 3] = static_cast<double>(rows_[r][i]);
             Quad<double> rows[9];
             for (std::size_t r = 0; r < 9; ++r) rows[r] = all_of(corners[r / 3][r % 3]);
-            if (certainly_have_area<double>(rows)[0] == 0 && has_zero_area_(corners)) continue;
+            if (certainly_have_area<double>(rows)[0] == 0 && has_zero_area_(corners)) {
+                degenerate.push_back(numbers_[i]);
+                continue;
+            }
             for (auto& row : rows_) row[kept] = row[i];
             numbers_[kept++] = numbers_[i];
         }

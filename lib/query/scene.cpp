@@ -42,13 +42,9 @@ void copy_triangles(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const Ex
 
 // Those that are in no cluster.
 template <class Scalar>
-void keep_degenerate(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, std::size_t count) {
-    if (count == 0) return;
-    std::vector<bool> listed(mesh.triangles.size());
-    scene.each_triangle([&](TriangleRef triangle) { listed[scene.number_of(triangle)] = true; });
-    scene.degenerate.reserve(count);
-    for (std::uint32_t i = 0; i < listed.size(); ++i) {
-        if (listed[i]) continue;
+void keep_degenerate(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const std::vector<std::uint32_t>& numbers) {
+    scene.degenerate.reserve(numbers.size());
+    for (const std::uint32_t i : numbers) {
         const IndexTriple& t = mesh.triangles[i];
         scene.degenerate.push_back({i, {to_point(mesh.positions[t[0]]), to_point(mesh.positions[t[1]]), to_point(mesh.positions[t[2]])}});
     }

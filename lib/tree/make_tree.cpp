@@ -48,10 +48,11 @@ void grow_groups(Forest<Scalar>& forest, std::span<ClusterBox<Scalar>> boxes, co
             SahSplitter splitter =
                 make_splitter<Scalar>(boxes.data(), spare, [](const ClusterBox<Scalar>&) { return 1U; });
             Collapse<Scalar> collapse(forest.nodes.data(), forest.rows.data(), boxes);
+            // One behind the other, as most need less room than they have: pages that nobody writes cost nothing.
+            std::uint32_t free = forest.roots[begin];
             for (std::size_t g = begin; g < end; ++g) {
-                const std::uint32_t root = forest.roots[g];
-                const std::uint32_t free =
-                    make_binary<Scalar>(splitter, forest.groups[g], forest.groups[g + 1], k_leaf_size,
+                const std::uint32_t root = forest.roots[g] = free;
+                free = make_binary<Scalar>(splitter, forest.groups[g], forest.groups[g + 1], k_leaf_size,
                                         forest.nodes.data(), root, root + 1, stack, [&](const SahSet<Scalar>& set) {
                                             Binary<Scalar>& leaf = forest.nodes[set.node];
                                             set_box(leaf, set.box);
