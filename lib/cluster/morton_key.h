@@ -11,29 +11,42 @@
 
 namespace pierce::detail {
 
+/// By pointers of its own: copied to where they are used, they stay in registers.
 template <class Scalar>
 class CornerReader {
   public:
-    explicit CornerReader(const MeshView<Scalar>& mesh) : mesh_(mesh), last_(mesh.positions.size() - 1) {}
+    explicit CornerReader(const MeshView<Scalar>& mesh)
+        : positions_(mesh.positions.data()),
+          triangles_(mesh.triangles.data()),
+          last_(static_cast<std::uint32_t>(mesh.positions.size() - 1)) {}
 
     /// Four numbers are read where one more vertex follows, never beyond the last.
     [[nodiscard, gnu::always_inline]] Quad<Scalar> corner(std::uint32_t vertex) const {
-        const Scalar* from = mesh_.positions[vertex].data();
+        const Scalar* from = positions_[vertex].data();
         if (vertex == last_) return Quad<Scalar>{from[0], from[1], from[2], 0};
         Quad<Scalar> quad;
         std::memcpy(&quad, from, sizeof quad);
         return quad;
     }
     [[nodiscard, gnu::always_inline]] QuadBox<Scalar> box(std::size_t triangle) const {
-        const IndexTriple& t = mesh_.triangles[triangle];
+        const IndexTriple& t = triangles_[triangle];
         const Quad<Scalar> a = corner(t[0]), b = corner(t[1]), c = corner(t[2]);
         return {least(a, least(b, c)), most(a, most(b, c))};
     }
-    [[nodiscard]] const MeshView<Scalar>& mesh() const { return mesh_; }
+    [[nodiscard, gnu::always_inline]] const IndexTriple& triangle(std::size_t triangle) const {
+        return triangles_[triangle];
+    }
+    [[gnu::always_inline]] void ask_for_triangle(std::size_t triangle) const {
+        __builtin_prefetch(&triangles_[triangle]);
+    }
+    [[gnu::always_inline]] void ask_for_corners(std::size_t triangle) const {
+        for (const std::uint32_t vertex : triangles_[triangle]) __builtin_prefetch(&positions_[vertex]);
+    }
 
   private:
-    const MeshView<Scalar>& mesh_;
-    std::size_t last_;
+    const Vec3<Scalar>* positions_;
+    const IndexTriple* triangles_;
+    std::uint32_t last_;
 };
 
 /// The power of two that brings a positive number to [2^exponent, 2^(exponent + 1)), or as near as powers that are not

@@ -78,30 +78,28 @@ class ClusterWriter {
     }
 
   private:
-    [[gnu::always_inline]] void ask_ahead(std::uint32_t i, std::uint32_t end) const {
-        const MeshView<Scalar>& mesh = reader_.mesh();
-        const auto triangle = [&](std::uint32_t at) -> const IndexTriple& {
-            return mesh.triangles[static_cast<std::uint32_t>(entries_[std::min(at, end - 1)])];
-        };
-        __builtin_prefetch(&triangle(i + 3 * k_ahead));
-        for (const std::uint32_t vertex : triangle(i + 3 * k_ahead / 2)) __builtin_prefetch(&mesh.positions[vertex]);
-    }
     // Four triangles from `from` on, or the last ones, to the rows; lanes behind the last have it as well.
     [[gnu::always_inline]] void gather(std::uint32_t begin, unsigned from, std::uint32_t last, QuadBox<Scalar>& all) {
+        const CornerReader<Scalar> reader = reader_;
+        const std::uint64_t* const entries = entries_;
+        const auto number_at = [&](std::uint32_t i) { return static_cast<std::uint32_t>(entries[std::min(i, last - 1)]); };
+        const unsigned behind = count_ - 1;
+        std::uint32_t numbers[4];
         Quad<Scalar> corners[3][4];
 #pragma GCC unroll 4
         for (unsigned i = 0; i < 4; ++i) {
-            const unsigned t = std::min(from + i, count_ - 1);
-            const auto number = static_cast<std::uint32_t>(entries_[begin + t]);
-            const IndexTriple& triangle = reader_.mesh().triangles[number];
-            const Quad<Scalar> a = reader_.corner(triangle[0]);
-            const Quad<Scalar> b = reader_.corner(triangle[1]);
-            const Quad<Scalar> c = reader_.corner(triangle[2]);
+            const std::uint32_t number = numbers[i] = number_at(begin + std::min(from + i, behind));
+            const IndexTriple& triangle = reader.triangle(number);
+            const Quad<Scalar> a = reader.corner(triangle[0]);
+            const Quad<Scalar> b = reader.corner(triangle[1]);
+            const Quad<Scalar> c = reader.corner(triangle[2]);
             all.add({least(a, least(b, c)), most(a, most(b, c))});
             corners[0][i] = a, corners[1][i] = b, corners[2][i] = c;
-            numbers_[from + i] = number;
-            ask_ahead(begin + from + i, last);  // some twice: a branch that can't be predicted costs more
+            // Some are asked for twice: a branch that can't be predicted costs more.
+            reader.ask_for_triangle(number_at(begin + from + i + 3 * k_ahead));
+            reader.ask_for_corners(number_at(begin + from + i + 3 * k_ahead / 2));
         }
+        std::memcpy(&numbers_[from], numbers, sizeof numbers);
         Quad<Scalar> rows[9];
         for (int c = 0; c < 3; ++c) transpose(corners[c], rows + 3 * c);
         for (std::size_t r = 0; r < 9; ++r) std::memcpy(&rows_[r][from], &rows[r], sizeof rows[r]);
@@ -141,12 +139,15 @@ class ClusterWriter {
     // does the row of numbers what is behind the ninth, as it is as long as four or eight are longer than the row.
     void write_rows(std::uint32_t place) const {
         Scalar* to = records_ + k_row_count * place;
+        for (int line = 0; line < 4; ++line) __builtin_prefetch(reinterpret_cast<char*>(to) + 768 + 64 * line, 1);
         const std::size_t n = count_;
         if (n == 1) {
             for (std::size_t r = 0; r < 9; ++r) to[r] = rows_[r][0];
         } else if (n <= 4) {
+#pragma GCC unroll 9
             for (std::size_t r = 0; r < 9; ++r) std::memcpy(to + r * n, rows_[r].data(), 4 * sizeof(Scalar));
         } else {
+#pragma GCC unroll 9
             for (std::size_t r = 0; r < 9; ++r) std::memcpy(to + r * n, rows_[r].data(), 8 * sizeof(Scalar));
         }
         if (std::is_same_v<Scalar, float> && n >= 4) {
@@ -230,7 +231,7 @@ class ClusterWriter {
         return cut;
     }
 
-    const CornerReader<Scalar>& reader_;
+    CornerReader<Scalar> reader_;
     const std::uint64_t* entries_;
     Scalar unit_;
     Scalar large_area_;
