@@ -13,7 +13,7 @@ namespace pierce::detail {
 namespace {
 
 // So many triangles are cut and written as one part of the work. (The same for any executor.)
-constexpr std::uint32_t k_part = 1U << 13;
+constexpr std::uint32_t k_part = 1U << 12;
 // Clusters with more than ten times the area that one has when the scene's is shared out, with one for five triangles,
 // are split where that pays.
 constexpr double k_large = 10 * 5;

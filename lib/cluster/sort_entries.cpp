@@ -73,7 +73,7 @@ void sort_by_digit(const std::uint64_t* from, std::uint64_t* to, std::size_t cou
 
 void sort_entries(std::uint64_t* entries, std::uint64_t* sorted, std::size_t count, const Executor& executor) {
     // The order does not depend on the parts: each pass is stable.
-    const std::size_t part = std::max<std::size_t>(std::size_t{1} << 15, count / 32 + 1);
+    const std::size_t part = std::max<std::size_t>(std::size_t{1} << 13, count / 32 + 1);
     if (!executor || count <= part) return sort_alone(entries, sorted, count);
     std::vector<std::uint32_t> places(chunks_of(count, part) * k_digits);
     sort_by_digit<0>(entries, sorted, count, places, part, executor);

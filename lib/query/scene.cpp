@@ -111,7 +111,9 @@ Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& optio
     ClusterBuild<Scalar> built = make_clusters(mesh, has_zero_area, executor);
     scene.clusters = std::move(built.clusters);
     scene.cluster_refs = RawArray<ClusterRef>(built.boxes.size());
-    for (std::size_t i = 0; i < built.boxes.size(); ++i) scene.cluster_refs[i] = built.boxes[i].ref;
+    each_chunk(executor, built.boxes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) scene.cluster_refs[i] = built.boxes[i].ref;
+    });
     if (!scene.empty()) {
         for (std::size_t k = 0; k < 3; ++k) scene.bounds.low[k] = built.low[k], scene.bounds.high[k] = built.high[k];
         scene.grain = grain_of<Scalar>(static_cast<double>(built.largest));
