@@ -134,12 +134,16 @@ class RangeCutter {
         const auto center = [&](std::size_t i) {
             return half_center(reader_.box(static_cast<std::uint32_t>(entries_[i])));
         };
+        // Of few, centres are kept from the first pass for the second.
+        const bool few = range.size() < k_radix;
+        if (few && centers_.size() == 0) centers_ = RawArray<Quad<Scalar>>(k_radix);
         boxes_.assign(chunks_of(range.size()), {});
         each_chunk(executor_, range.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
             QuadBox<Scalar> box;
             for (std::size_t i = range.begin + begin; i < range.begin + end; ++i) {
                 const Quad<Scalar> c = center(i);
                 box.add({c, c});
+                if (few) centers_[i - range.begin] = c;
             }
             boxes_[chunk] = box;
         });
@@ -152,11 +156,11 @@ class RangeCutter {
             for (std::size_t i = range.begin + begin; i < range.begin + end; i += 4)
                 put_keys<Scalar>(
                     raster, std::min<std::size_t>(range.begin + end - i, 4), entries_ + i,
-                    [&](std::size_t lane) { return center(i + lane); },
+                    [&](std::size_t lane) { return few ? centers_[i + lane - range.begin] : center(i + lane); },
                     [&](std::size_t lane) { return static_cast<std::uint32_t>(entries_[i + lane]); });
         });
         std::uint64_t* const first = entries_ + range.begin;
-        if (range.size() < k_radix) return std::sort(first, first + range.size());
+        if (few) return std::sort(first, first + range.size());
         if (sorted_.size() < range.size()) sorted_ = RawArray<std::uint64_t>(range.size());
         sort_entries(first, sorted_.data(), range.size(), executor_);
         std::copy_n(sorted_.data(), range.size(), first);
@@ -170,6 +174,7 @@ class RangeCutter {
     const Executor& executor_;
     std::vector<Range> stack_;
     std::vector<QuadBox<Scalar>> boxes_;
+    RawArray<Quad<Scalar>> centers_;
     RawArray<std::uint64_t> sorted_;
 };
 

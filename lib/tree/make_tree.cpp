@@ -52,7 +52,7 @@ void grow_groups(Forest<Scalar>& forest, std::span<ClusterBox<Scalar>> boxes, co
                 for (std::uint32_t at = free; at-- > root;) collapse.find_cost(at);
             }
         },
-        64);
+        std::max<std::size_t>(64, forest.group_count() / 32 + 1));
 }
 
 // Whether groups differ so much in size, by the mean square of areas to the square of their mean, that PLOC may find a
