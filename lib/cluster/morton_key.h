@@ -77,8 +77,8 @@ class KeyRaster {
     }
     [[nodiscard]] bool flat() const { return flat_; }  ///< all in one place
 
-    /// Of four triangles, whose half centres are given as rows of x, y and z: 30 bits each. Rounding may move what lies at
-    /// a cell's end to the next one: keys are a good order, no more.
+    /// Of four triangles, whose half centres are given as rows of x, y and z: 30 bits each. Rounding may move what lies
+    /// at a cell's end to the next one: keys are a good order, no more.
     [[nodiscard, gnu::always_inline]] IntQuad keys(const Quad<Scalar> (&half_centers)[3]) const {
         IntQuad cells[3];
         for (int k = 0; k < 3; ++k) {

@@ -82,7 +82,9 @@ class ClusterWriter {
     [[gnu::always_inline]] void gather(std::uint32_t begin, unsigned from, std::uint32_t last, QuadBox<Scalar>& all) {
         const CornerReader<Scalar> reader = reader_;
         const std::uint64_t* const entries = entries_;
-        const auto number_at = [&](std::uint32_t i) { return static_cast<std::uint32_t>(entries[std::min(i, last - 1)]); };
+        const auto number_at = [&](std::uint32_t i) {
+            return static_cast<std::uint32_t>(entries[std::min(i, last - 1)]);
+        };
         const unsigned behind = count_ - 1;
         std::uint32_t numbers[4];
         Quad<Scalar> corners[3][4];
@@ -135,11 +137,12 @@ class ClusterWriter {
         boxes.push_back(out);
     }
 
-    // All of them, in their order. Rows are written in wholes of four numbers, whose last ones the next row covers; so
-    // does the row of numbers what is behind the ninth, as it is as long as four or eight are longer than the row.
+    // All of them, in their order. Rows are stored four or eight wide, and what is too much is overwritten by the next:
+    // the ninth, 8 n + 4 or, from five on, 8 n + 8 wide with those before, ends within the record of 10 n.
     void write_rows(std::uint32_t place) const {
         Scalar* to = records_ + k_row_count * place;
-        for (int line = 0; line < 4; ++line) __builtin_prefetch(reinterpret_cast<char*>(to) + 768 + 64 * line, 1);
+        // Lines of the clusters after next: stores to memory that is not in the cache yet hold up all others.
+        for (int line = 12; line < 16; ++line) __builtin_prefetch(reinterpret_cast<char*>(to) + 64 * line, 1);
         const std::size_t n = count_;
         if (n == 1) {
             for (std::size_t r = 0; r < 9; ++r) to[r] = rows_[r][0];
@@ -183,7 +186,9 @@ class ClusterWriter {
         add_box(box, cluster_ref(place, n), key, boxes);
     }
     [[nodiscard]] QuadBox<Scalar> box_of_triangle(unsigned t) const {
-        const auto corner = [&](std::size_t r) { return Quad<Scalar>{rows_[r][t], rows_[r + 1][t], rows_[r + 2][t], 0}; };
+        const auto corner = [&](std::size_t r) {
+            return Quad<Scalar>{rows_[r][t], rows_[r + 1][t], rows_[r + 2][t], 0};
+        };
         const Quad<Scalar> a = corner(0), b = corner(3), c = corner(6);
         return {least(a, least(b, c)), most(a, most(b, c))};
     }

@@ -50,8 +50,8 @@ void write_node(NodeList& nodes, std::uint32_t at, const QuadBox<Scalar>* boxes,
     std::fill(node.child + count, node.child + k_children, empty);
 }
 
-/// Writes the tree over binary nodes: some at the top, then below each of those in its order. Threads each have lists of
-/// their own, which are put one behind the other: the tree is the same.
+/// Writes the tree over binary nodes: some at the top, then what is below, one after the other. On threads each of these
+/// parts has a list of its own, and the lists are put one behind the other: the tree is the same.
 template <class Scalar, class Encoder>
 class TreeWriter {
   public:

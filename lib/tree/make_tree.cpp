@@ -121,7 +121,8 @@ Tree grow(std::span<ClusterBox<Scalar>> boxes, ClusterRef empty, Scalar scene_ar
     const std::uint32_t root = has_ploc && forest.rows[ploc_root].cost[0] < sah_cost ? ploc_root : sah_root;
     if (forest.rows[root].cost[0] <= std::numeric_limits<float>::max()) {
         const Collapse<Scalar> collapse(forest.nodes.data(), forest.rows.data(), boxes);
-        Tree tree = TreeWriter<Scalar, Encoder>(collapse, forest.nodes.data(), boxes, empty, encoder).write(root, executor);
+        const TreeWriter<Scalar, Encoder> writer(collapse, forest.nodes.data(), boxes, empty, encoder);
+        Tree tree = writer.write(root, executor);
         if (tree.depth <= k_most_depth) return tree;
     }
     return balanced_tree<Scalar>(boxes, empty, encoder);

@@ -84,8 +84,8 @@ class SahTop {
         SahSet<Scalar> stack[k_sah_stack];
         SahSplitter splitter = make_splitter_of(part.set.begin);
         const std::uint32_t end =
-            make_binary<Scalar>(splitter, part.set.begin, part.set.end, 1, forest.nodes.data(), part.set.node, part.next,
-                                stack, [&](const SahSet<Scalar>& set) {
+            make_binary<Scalar>(splitter, part.set.begin, part.set.end, 1, forest.nodes.data(), part.set.node,
+                                part.next, stack, [&](const SahSet<Scalar>& set) {
                                     graft(forest, set.node, items_[set.begin].at);
                                     is_group_[set.node - from] = 1;
                                 });
