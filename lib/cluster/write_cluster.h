@@ -64,12 +64,12 @@ class ClusterWriter {
         if (!all_have_area_) {
             all_have_area_ = true;
             leave_out_degenerate(degenerate);
-            for (unsigned i = 0; i < count_; ++i) order_[i] = static_cast<std::uint8_t>(i);
+            find_boxes();
             all = box_of_part(0, count_);
         }
         if (count_ == 0) return;
         if (const Scalar a = area(all); count_ > 1 && a > large_area_) {
-            for (unsigned i = 0; i < count_; ++i) order_[i] = static_cast<std::uint8_t>(i);
+            find_boxes();
             split(0, count_, all, begin, key, boxes);
         } else {
             write_rows(begin);
@@ -185,16 +185,20 @@ class ClusterWriter {
         }
         add_box(box, cluster_ref(place, n), key, boxes);
     }
-    [[nodiscard]] QuadBox<Scalar> box_of_triangle(unsigned t) const {
-        const auto corner = [&](std::size_t r) {
-            return Quad<Scalar>{rows_[r][t], rows_[r + 1][t], rows_[r + 2][t], 0};
-        };
-        const Quad<Scalar> a = corner(0), b = corner(3), c = corner(6);
-        return {least(a, least(b, c)), most(a, most(b, c))};
+    // Of the triangles, in the order they have: only what is split needs them.
+    void find_boxes() {
+        for (unsigned t = 0; t < count_; ++t) {
+            const auto corner = [&](std::size_t r) {
+                return Quad<Scalar>{rows_[r][t], rows_[r + 1][t], rows_[r + 2][t], 0};
+            };
+            const Quad<Scalar> a = corner(0), b = corner(3), c = corner(6);
+            boxes_[t] = {least(a, least(b, c)), most(a, most(b, c))};
+            order_[t] = static_cast<std::uint8_t>(t);
+        }
     }
     [[nodiscard]] QuadBox<Scalar> box_of_part(unsigned begin, unsigned end) const {
         QuadBox<Scalar> box;
-        for (unsigned i = begin; i < end; ++i) box.add(box_of_triangle(order_[i]));
+        for (unsigned i = begin; i < end; ++i) box.add(boxes_[order_[i]]);
         return box;
     }
 
@@ -212,19 +216,19 @@ class ClusterWriter {
             for (unsigned i = 0; i < n; ++i) {
                 const unsigned t = order_[begin + i];
                 order[i] = static_cast<std::uint8_t>(t);
-                keys[t] = way < 3 ? half_center(box_of_triangle(t))[way] : area(box_of_triangle(t));
+                keys[t] = way < 3 ? half_center(boxes_[t])[way] : area(boxes_[t]);
             }
             std::sort(order.begin(), order.begin() + n,
                       [&](unsigned i, unsigned j) { return keys[i] < keys[j] || (keys[i] == keys[j] && i < j); });
             std::array<Scalar, k_most_in_cluster> areas_behind;
             QuadBox<Scalar> sum;
             for (unsigned i = n; i-- > 1;) {
-                sum.add(box_of_triangle(order[i]));
+                sum.add(boxes_[order[i]]);
                 areas_behind[i] = area(sum);
             }
             sum = {};
             for (unsigned i = 1; i < n; ++i) {
-                sum.add(box_of_triangle(order[i - 1]));
+                sum.add(boxes_[order[i - 1]]);
                 const Scalar both = area(sum) + areas_behind[i];
                 if (!(both < best)) continue;
                 best = both;
@@ -246,6 +250,7 @@ class ClusterWriter {
     unsigned count_ = 0;
     bool all_have_area_ = true;
     std::array<std::array<Scalar, k_most_in_cluster>, 9> rows_;
+    std::array<QuadBox<Scalar>, k_most_in_cluster> boxes_;
     std::array<std::uint32_t, k_most_in_cluster> numbers_;
     std::array<std::uint8_t, k_most_in_cluster> order_;
 };
