@@ -1,6 +1,7 @@
 // Triangles sorted by key, the order cut into ranges of at most eight, each written as a record.
 #include <cluster/make_clusters.h>
 
+#include <algorithm>
 #include <exception>
 
 #include <chunks.h>
@@ -12,7 +13,7 @@ namespace pierce::detail {
 namespace {
 
 // So many triangles are cut and written as one part of the work. (The same for any executor.)
-constexpr std::uint32_t k_part = 1U << 13;
+constexpr std::uint32_t k_part = 1U << 12;
 // Clusters with more than ten times the area that one has when the scene's is shared out, with one for five triangles,
 // are split where that pays.
 constexpr double k_large = 10 * 5;
@@ -21,7 +22,7 @@ template <class Scalar>
 struct Part {
     Range range;
     std::vector<ClusterBox<Scalar>> boxes;
-    std::size_t degenerate = 0;
+    std::vector<std::uint32_t> degenerate;
     std::size_t first = 0;  // of its boxes among all
     std::exception_ptr failure;
 };
@@ -29,12 +30,13 @@ struct Part {
 template <class Scalar>
 void write_part(Part<Scalar>& part, const CornerReader<Scalar>& reader, std::uint64_t* entries,
                 ClusterWriter<Scalar> writer) {
-    RangeCutter<Scalar> cutter(reader, entries);
-    std::vector<Range> stack;
+    const Executor alone;
+    RangeCutter<Scalar> cutter(reader, entries, alone);
     part.boxes.reserve(part.range.size() / 4 + 8);
-    cutter.cut(part.range, k_most_in_cluster, stack, [&](const Range& range) {
-        part.degenerate += writer.write(range, cutter.key_of(range), part.range.end, part.boxes);
-    });
+    cutter.template cut_small<k_most_in_cluster>(
+        part.range, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t key) {
+            writer.write(begin, end, key, part.range.end, part.boxes, part.degenerate);
+        });
 }
 
 // The scene's largest extent times this is in [0.5, 1), halved first since the difference of the largest numbers
@@ -69,9 +71,10 @@ void join(std::vector<Part<Scalar>>& parts, ClusterBuild<Scalar>& build, const E
     for (std::size_t p = 0; p < parts.size(); ++p) {
         parts[p].first = count;
         count += parts[p].boxes.size();
-        build.degenerate += parts[p].degenerate;
+        build.degenerate.insert(build.degenerate.end(), parts[p].degenerate.begin(), parts[p].degenerate.end());
         all.add(bounds[p]);
     }
+    std::sort(build.degenerate.begin(), build.degenerate.end());
     if (count == 0) return;
     for (int k = 0; k < 3; ++k) {
         build.low[k] = all.low[k];
@@ -109,9 +112,8 @@ ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero
     std::uint64_t* entries = order.entries.data();
 
     std::vector<Part<Scalar>> parts;
-    std::vector<Range> stack;
-    RangeCutter<Scalar>(reader, entries)
-        .cut({0, static_cast<std::uint32_t>(count), 0, false, false}, k_part, stack, [&](const Range& range) {
+    RangeCutter<Scalar>(reader, entries, executor)
+        .cut({0, static_cast<std::uint32_t>(count), 0, false, false}, k_part, [&](const Range& range) {
             parts.push_back({});
             parts.back().range = range;
         });

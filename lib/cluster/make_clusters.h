@@ -1,7 +1,8 @@
 // From a mesh to clusters of triangles: the first half of the build.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include <cluster/clusters.h>
 #include <pierce/executor.h>
@@ -10,16 +11,15 @@
 namespace pierce::detail {
 
 /// `unit`: the power of two with which the largest extent of what is listed is in [0.5, 1) (for the least numbers as
-/// close to that as powers of two go). `boxes`: one of each cluster, in Morton order, in scene units. Triangles of area zero are
-/// counted, and in no cluster;
-/// the rest has its bounds in `low` and `high` and its largest |coordinate| in `largest`, in the caller's coordinates
-/// (0 if there is none).
+/// close to that as powers of two go). `boxes`: one of each cluster, in Morton order, in scene units. Triangles of area
+/// zero are in `degenerate`, in the caller's order, and in no cluster; the rest has its bounds in `low` and `high` and
+/// its largest |coordinate| in `largest`, in the caller's coordinates (0 if there is none).
 template <class Scalar>
 struct ClusterBuild {
     Clusters<Scalar> clusters;
     RawArray<ClusterBox<Scalar>> boxes;
     double unit = 1;
-    std::size_t degenerate = 0;
+    std::vector<std::uint32_t> degenerate;
     double low[3] = {};
     double high[3] = {};
     double largest = 0;

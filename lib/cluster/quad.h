@@ -57,6 +57,18 @@ template <class Scalar>
     return xy > q[2] ? xy : q[2];
 }
 
+/// x, y and z of four points as three rows of four.
+template <class Q>
+[[gnu::always_inline]] inline void transpose(const Q (&points)[4], Q* rows) {
+    const Q xy01 = __builtin_shufflevector(points[0], points[1], 0, 4, 1, 5);
+    const Q xy23 = __builtin_shufflevector(points[2], points[3], 0, 4, 1, 5);
+    const Q z01 = __builtin_shufflevector(points[0], points[1], 2, 6, 3, 7);
+    const Q z23 = __builtin_shufflevector(points[2], points[3], 2, 6, 3, 7);
+    rows[0] = __builtin_shufflevector(xy01, xy23, 0, 1, 4, 5);
+    rows[1] = __builtin_shufflevector(xy01, xy23, 2, 3, 6, 7);
+    rows[2] = __builtin_shufflevector(z01, z23, 0, 1, 4, 5);
+}
+
 template <class Scalar>
 struct QuadBox {
     static constexpr Scalar k_far = std::numeric_limits<Scalar>::infinity();

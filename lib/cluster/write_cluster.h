@@ -13,22 +13,30 @@
 
 namespace pierce::detail {
 
-/// Certain that the area is not zero. Edges p, q from one corner and n = p x q, computed: with u twice the half unit of
-/// the numbers and M the largest
-/// |component| of p and q, each component of n is within 8u M^2 (kernel/meeting.h: 4u of sums of two products, each at most M^2). M is kept to where
-/// products lose less than a
-/// thousandth of u M^2 to underflow, and none overflows.
+/// For each of four triangles, whether it is certain that its area is not zero. Edges p, q from one corner and
+/// n = p x q, computed: with u twice the half unit of the numbers and M the largest |component| of p and q, each
+/// component of n is within 8u M^2 (kernel/meeting.h: 4u of sums of two products, each at most M^2). M is kept to where products lose less than a
+/// thousandth of u M^2 to underflow, and none overflows. `rows`: a.x, a.y, a.z, b.x, ... c.z of the four.
 template <class Number>
-[[nodiscard, gnu::always_inline]] inline bool certainly_has_area(Quad<Number> a, Quad<Number> b, Quad<Number> c) {
+[[nodiscard, gnu::always_inline]] inline auto certainly_have_area(const Quad<Number> (&rows)[9]) {
     constexpr bool k_float = std::is_same_v<Number, float>;
     constexpr Number k_least = k_float ? Number(0x1p-40) : Number(0x1p-300);
-    const Quad<Number> p = b - a, q = c - a;
-    const Quad<Number> n = __builtin_shufflevector(p, p, 1, 2, 0, 3) * __builtin_shufflevector(q, q, 2, 0, 1, 3) -
-                           __builtin_shufflevector(p, p, 2, 0, 1, 3) * __builtin_shufflevector(q, q, 1, 2, 0, 3);
-    const Number size = largest_of<Number>(most(most(p, -p), most(q, -q)));
-    const Number normal = largest_of<Number>(most(n, -n));
-    return size >= k_least && size <= 1 / k_least &&
-           normal > 8 * std::numeric_limits<Number>::epsilon() * (size * size);  // false for NaN
+    const auto size_of = [](Quad<Number> x, Quad<Number> y, Quad<Number> z) {
+        return most(most(most(x, -x), most(y, -y)), most(z, -z));
+    };
+    Quad<Number> p[3], q[3], n[3];
+    for (int k = 0; k < 3; ++k) {
+        p[k] = rows[3 + k] - rows[k];
+        q[k] = rows[6 + k] - rows[k];
+    }
+    for (int k = 0; k < 3; ++k) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        n[k] = p[i] * q[j] - p[j] * q[i];
+    }
+    const Quad<Number> size = most(size_of(p[0], p[1], p[2]), size_of(q[0], q[1], q[2]));
+    const Quad<Number> least_normal = all_of(8 * std::numeric_limits<Number>::epsilon()) * (size * size);
+    return (size >= all_of(k_least)) & (size <= all_of(1 / k_least)) &
+           (size_of(n[0], n[1], n[2]) > least_normal);  // false for NaN
 }
 
 using HasZeroArea = bool (*)(const Corners&);
@@ -46,48 +54,115 @@ class ClusterWriter {
           has_zero_area_(has_zero_area),
           records_(records) {}
 
-    /// `end`: of the entries that may be asked of memory ahead. Returns the number of triangles without area.
-    std::size_t write(const Range& range, std::uint32_t key, std::uint32_t end,
-                      std::vector<ClusterBox<Scalar>>& boxes) {
-        count_ = 0;
+    /// The triangles of entries [begin, end), eight at most, which are more than none. `last`: of the entries that may
+    /// be asked of memory ahead. Numbers of those without area are added to `degenerate`.
+    void write(std::uint32_t begin, std::uint32_t end, std::uint32_t key, std::uint32_t last,
+               std::vector<ClusterBox<Scalar>>& boxes, std::vector<std::uint32_t>& degenerate) {
+        count_ = end - begin;
         QuadBox<Scalar> all;
-        for (std::uint32_t i = range.begin; i < range.end; ++i) {
-            ask_ahead(i, end);
-            gather(static_cast<std::uint32_t>(entries_[i]), all);
+        for (unsigned i = 0; i < count_; i += 4) gather(begin, i, last, all);
+        if (!all_have_area_) {
+            all_have_area_ = true;
+            leave_out_degenerate(degenerate);
+            find_boxes();
+            all = box_of_part(0, count_);
         }
-        for (unsigned i = 0; i < count_; ++i) order_[i] = static_cast<std::uint8_t>(i);
-        if (count_ > 0) split(0, count_, all, range.begin, key, boxes);
-        return range.size() - count_;
+        if (count_ == 0) return;
+        if (const Scalar a = area(all); count_ > 1 && a > large_area_) {
+            find_boxes();
+            split(0, count_, all, begin, key, boxes);
+        } else {
+            write_rows(begin);
+            add_box(all, cluster_ref(begin, count_), key, boxes);
+        }
     }
 
   private:
-    [[gnu::always_inline]] void ask_ahead(std::uint32_t i, std::uint32_t end) const {
-        const MeshView<Scalar>& mesh = reader_.mesh();
-        const auto triangle = [&](std::uint32_t at) -> const IndexTriple& {
-            return mesh.triangles[static_cast<std::uint32_t>(entries_[std::min(at, end - 1)])];
+    // Four triangles from `from` on, or the last ones, to the rows; lanes behind the last have it as well.
+    [[gnu::always_inline]] void gather(std::uint32_t begin, unsigned from, std::uint32_t last, QuadBox<Scalar>& all) {
+        const CornerReader<Scalar> reader = reader_;
+        const std::uint64_t* const entries = entries_;
+        const auto number_at = [&](std::uint32_t i) {
+            return static_cast<std::uint32_t>(entries[std::min(i, last - 1)]);
         };
-        __builtin_prefetch(&triangle(i + 3 * k_ahead));
-        for (const std::uint32_t vertex : triangle(i + 3 * k_ahead / 2)) __builtin_prefetch(&mesh.positions[vertex]);
+        const unsigned behind = count_ - 1;
+        std::uint32_t numbers[4];
+        Quad<Scalar> corners[3][4];
+#pragma GCC unroll 4
+        for (unsigned i = 0; i < 4; ++i) {
+            const std::uint32_t number = numbers[i] = number_at(begin + std::min(from + i, behind));
+            const IndexTriple& triangle = reader.triangle(number);
+            const Quad<Scalar> a = reader.corner(triangle[0]);
+            const Quad<Scalar> b = reader.corner(triangle[1]);
+            const Quad<Scalar> c = reader.corner(triangle[2]);
+            all.add({least(a, least(b, c)), most(a, most(b, c))});
+            corners[0][i] = a, corners[1][i] = b, corners[2][i] = c;
+            // Some are asked for twice: a branch that can't be predicted costs more.
+            reader.ask_for_triangle(number_at(begin + from + i + 3 * k_ahead));
+            reader.ask_for_corners(number_at(begin + from + i + 3 * k_ahead / 2));
+        }
+        std::memcpy(&numbers_[from], numbers, sizeof numbers);
+        Quad<Scalar> rows[9];
+        for (int c = 0; c < 3; ++c) transpose(corners[c], rows + 3 * c);
+        for (std::size_t r = 0; r < 9; ++r) std::memcpy(&rows_[r][from], &rows[r], sizeof rows[r]);
+        const auto have_area = certainly_have_area<Scalar>(rows);
+        all_have_area_ = all_have_area_ && (have_area[0] & have_area[1] & have_area[2] & have_area[3]) != 0;
     }
-    [[gnu::always_inline]] void gather(std::uint32_t number, QuadBox<Scalar>& all) {
-        const IndexTriple& t = reader_.mesh().triangles[number];
-        const Quad<Scalar> a = reader_.corner(t[0]), b = reader_.corner(t[1]), c = reader_.corner(t[2]);
-        if (!certainly_has_area<Scalar>(a, b, c) && has_no_area(t)) return;
-        std::array<Quad<Scalar>, 3>& corners = corners_[count_];
-        corners = {a, b, c};
-        boxes_[count_] = {least(a, least(b, c)), most(a, most(b, c))};
-        all.add(boxes_[count_]);
-        numbers_[count_++] = number;
-    }
-    [[nodiscard]] bool has_no_area(const IndexTriple& t) const {
-        const auto& x = reader_.mesh().positions;
-        const Corners corners = {to_point(x[t[0]]), to_point(x[t[1]]), to_point(x[t[2]])};
-        const auto quad = [](const Point& p) { return Quad<double>{p[0], p[1], p[2], 0}; };
-        return !certainly_has_area<double>(quad(corners[0]), quad(corners[1]), quad(corners[2])) &&
-               has_zero_area_(corners);
+    // Of those that it is not certain of, too: these are few.
+    void leave_out_degenerate(std::vector<std::uint32_t>& degenerate) {
+        unsigned kept = 0;
+        for (unsigned i = 0; i < count_; ++i) {
+            Corners corners;
+            for (std::size_t r = 0; r < 9; ++r) corners[r / 3][r % 3] = static_cast<double>(rows_[r][i]);
+            Quad<double> rows[9];
+            for (std::size_t r = 0; r < 9; ++r) rows[r] = all_of(corners[r / 3][r % 3]);
+            if (certainly_have_area<double>(rows)[0] == 0 && has_zero_area_(corners)) {
+                degenerate.push_back(numbers_[i]);
+                continue;
+            }
+            for (auto& row : rows_) row[kept] = row[i];
+            numbers_[kept++] = numbers_[i];
+        }
+        count_ = kept;
     }
     [[nodiscard]] Scalar area(const QuadBox<Scalar>& box) const {
         return QuadBox<Scalar>{box.low * unit_, box.high * unit_}.area();
+    }
+    void add_box(const QuadBox<Scalar>& box, ClusterRef ref, std::uint32_t key,
+                 std::vector<ClusterBox<Scalar>>& boxes) const {
+        ClusterBox<Scalar> out;
+        set_box(out, box);
+        out.ref = ref;
+        out.key = key;
+        boxes.push_back(out);
+    }
+
+    // All of them, in their order. Rows are stored four or eight wide, and what is too much is overwritten by the next:
+    // the ninth, 8 n + 4 or, from five on, 8 n + 8 wide with those before, ends within the record of 10 n.
+    void write_rows(std::uint32_t place) const {
+        Scalar* to = records_ + k_row_count * place;
+        // Lines of the clusters after next: stores to memory that is not in the cache yet hold up all others.
+        for (int line = 12; line < 16; ++line) __builtin_prefetch(reinterpret_cast<char*>(to) + 64 * line, 1);
+        const std::size_t n = count_;
+        if (n == 1) {
+            for (std::size_t r = 0; r < 9; ++r) to[r] = rows_[r][0];
+        } else if (n <= 4) {
+#pragma GCC unroll 9
+            for (std::size_t r = 0; r < 9; ++r) std::memcpy(to + r * n, rows_[r].data(), 4 * sizeof(Scalar));
+        } else {
+#pragma GCC unroll 9
+            for (std::size_t r = 0; r < 9; ++r) std::memcpy(to + r * n, rows_[r].data(), 8 * sizeof(Scalar));
+        }
+        if (std::is_same_v<Scalar, float> && n >= 4) {
+            std::memcpy(to + 9 * n, numbers_.data(), 4 * sizeof(std::uint32_t));
+            std::memcpy(to + 10 * n - 4, &numbers_[n - 4], 4 * sizeof(std::uint32_t));
+        } else {
+            for (std::size_t i = 0; i < n; ++i) write_number(to + 9 * n + i, numbers_[i]);
+        }
+    }
+    [[gnu::always_inline]] static void write_number(Scalar* to, std::uint32_t number) {
+        *to = 0;
+        std::memcpy(to, &number, sizeof number);
     }
 
     // Triangles order_[begin, end), whose box is `box`, to the places from `place` on.
@@ -105,17 +180,21 @@ class ClusterWriter {
         Scalar* const record = records_ + k_row_count * place;
         for (unsigned i = 0; i < n; ++i) {
             const unsigned t = order_[begin + i];
-            Scalar* to = record + i;
-            for (const Quad<Scalar>& corner : corners_[t])
-                for (int k = 0; k < 3; ++k, to += n) *to = corner[k];
-            *to = 0;
-            std::memcpy(to, &numbers_[t], sizeof numbers_[t]);
+            for (std::size_t r = 0; r < 9; ++r) record[r * n + i] = rows_[r][t];
+            write_number(record + 9 * n + i, numbers_[t]);
         }
-        ClusterBox<Scalar> out;
-        set_box(out, box);
-        out.ref = cluster_ref(place, n);
-        out.key = key;
-        boxes.push_back(out);
+        add_box(box, cluster_ref(place, n), key, boxes);
+    }
+    // Of the triangles, in the order they have: only what is split needs them.
+    void find_boxes() {
+        for (unsigned t = 0; t < count_; ++t) {
+            const auto corner = [&](std::size_t r) {
+                return Quad<Scalar>{rows_[r][t], rows_[r + 1][t], rows_[r + 2][t], 0};
+            };
+            const Quad<Scalar> a = corner(0), b = corner(3), c = corner(6);
+            boxes_[t] = {least(a, least(b, c)), most(a, most(b, c))};
+            order_[t] = static_cast<std::uint8_t>(t);
+        }
     }
     [[nodiscard]] QuadBox<Scalar> box_of_part(unsigned begin, unsigned end) const {
         QuadBox<Scalar> box;
@@ -161,14 +240,16 @@ class ClusterWriter {
         return cut;
     }
 
-    const CornerReader<Scalar>& reader_;
+    CornerReader<Scalar> reader_;
     const std::uint64_t* entries_;
     Scalar unit_;
     Scalar large_area_;
     HasZeroArea has_zero_area_;
     Scalar* records_;
+    // What is gathered: rows as in a record, but of eight.
     unsigned count_ = 0;
-    std::array<std::array<Quad<Scalar>, 3>, k_most_in_cluster> corners_;
+    bool all_have_area_ = true;
+    std::array<std::array<Scalar, k_most_in_cluster>, 9> rows_;
     std::array<QuadBox<Scalar>, k_most_in_cluster> boxes_;
     std::array<std::uint32_t, k_most_in_cluster> numbers_;
     std::array<std::uint8_t, k_most_in_cluster> order_;

@@ -42,13 +42,9 @@ void copy_triangles(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const Ex
 
 // Those that are in no cluster.
 template <class Scalar>
-void keep_degenerate(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, std::size_t count) {
-    if (count == 0) return;
-    std::vector<bool> listed(mesh.triangles.size());
-    scene.each_triangle([&](TriangleRef triangle) { listed[scene.number_of(triangle)] = true; });
-    scene.degenerate.reserve(count);
-    for (std::uint32_t i = 0; i < listed.size(); ++i) {
-        if (listed[i]) continue;
+void keep_degenerate(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const std::vector<std::uint32_t>& numbers) {
+    scene.degenerate.reserve(numbers.size());
+    for (const std::uint32_t i : numbers) {
         const IndexTriple& t = mesh.triangles[i];
         scene.degenerate.push_back({i, {to_point(mesh.positions[t[0]]), to_point(mesh.positions[t[1]]), to_point(mesh.positions[t[2]])}});
     }
@@ -115,7 +111,9 @@ Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& optio
     ClusterBuild<Scalar> built = make_clusters(mesh, has_zero_area, executor);
     scene.clusters = std::move(built.clusters);
     scene.cluster_refs = RawArray<ClusterRef>(built.boxes.size());
-    for (std::size_t i = 0; i < built.boxes.size(); ++i) scene.cluster_refs[i] = built.boxes[i].ref;
+    each_chunk(executor, built.boxes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) scene.cluster_refs[i] = built.boxes[i].ref;
+    });
     if (!scene.empty()) {
         for (std::size_t k = 0; k < 3; ++k) scene.bounds.low[k] = built.low[k], scene.bounds.high[k] = built.high[k];
         scene.grain = grain_of<Scalar>(static_cast<double>(built.largest));

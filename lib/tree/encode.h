@@ -66,25 +66,32 @@ class OwnFrames {
         QuadBox<Scalar> all;
         for (unsigned i = 0; i < count; ++i) all.add(boxes[i]);
         const QuadBox<double> whole = relative(all);
+        const Quad<double> origin = whole.low - slack_;
+        // 254 of 255 steps: what rounding to float takes from a step, and to double from the rest, is far below 1 / 255
+        // of it.
+        const Quad<double> extent = (whole.high + slack_ - origin) / 254.0;
+        Quad<double> step = all_of(1.0);
         for (int k = 0; k < 3; ++k) {
-            const double origin = whole.low[k] - slack_;
-            // 254 of 255 steps: what rounding to float takes from a step, and to double from the rest, is far below 1 /
-            // 255 of it.
-            const float step = static_cast<float>((whole.high[k] + slack_ - origin) / 254);
-            node.origin[k] = origin;
-            node.step[k] = step;
-            for (unsigned i = 0; i < count; ++i) {
-                const QuadBox<double> box = relative(boxes[i]);
-                node.bounds[2 * k][i] = static_cast<std::uint8_t>(
-                    std::max(0.0, (box.low[k] - origin) / static_cast<double>(step) - 0x1p-40));
-                node.bounds[2 * k + 1][i] =
-                    static_cast<std::uint8_t>((box.high[k] - origin) / static_cast<double>(step) + (1 + 0x1p-40));
+            node.origin[k] = origin[k];
+            node.step[k] = static_cast<float>(extent[k]);
+            step[k] = static_cast<double>(node.step[k]);
+        }
+        for (unsigned i = 0; i < count; ++i) {
+            const QuadBox<double> box = relative(boxes[i]);
+            const Quad<double> low = most((box.low - origin) / step - 0x1p-40, Quad<double>{});
+            const Quad<double> high = (box.high - origin) / step + (1 + 0x1p-40);
+            const IntQuad l = __builtin_convertvector(low, IntQuad);
+            const IntQuad h = __builtin_convertvector(high, IntQuad);
+            for (int k = 0; k < 3; ++k) {
+                node.bounds[2 * k][i] = static_cast<std::uint8_t>(l[k]);
+                node.bounds[2 * k + 1][i] = static_cast<std::uint8_t>(h[k]);
             }
-            for (unsigned i = count; i < k_children; ++i) {
+        }
+        for (unsigned i = count; i < k_children; ++i)
+            for (int k = 0; k < 3; ++k) {
                 node.bounds[2 * k][i] = 255;
                 node.bounds[2 * k + 1][i] = 0;
             }
-        }
     }
 
   private:

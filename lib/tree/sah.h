@@ -52,6 +52,13 @@ class SahSplitter {
         const std::uint32_t n = set.size();
         SahSet<Scalar> left{0, set.begin, set.begin, set.depth + 1, {}, {}};
         SahSet<Scalar> right{0, set.end, set.end, set.depth + 1, {}, {}};
+        if (n == 2) {  // half of all splits down to single items; the search finds no other
+            const QuadBox<Scalar> a = box_of<Scalar>(items_[set.begin]), b = box_of<Scalar>(items_[set.begin + 1]);
+            left.add(a);
+            right.add(b);
+            left.end = right.begin = set.begin + 1;
+            return {left, right};
+        }
         bins_ = n < 12 ? 6 : n < 64 ? 8 : k_most_bins;
         const Quad<Scalar> extent = set.centers.high - set.centers.low;
         low_ = set.centers.low;
@@ -97,44 +104,58 @@ class SahSplitter {
                                        IntQuad);  // not below 0: `low_` is the least
     }
 
+    // All three axes in step: a lane for each.
     Cut best_cut(const SahSet<Scalar>& set) {
         for (auto& axis : boxes_) std::fill_n(axis, bins_, QuadBox<Scalar>{});
-        for (auto& axis : weights_) std::fill_n(axis, bins_, 0U);
+        std::fill_n(weights_, bins_, Quad<Scalar>{});
         for (std::uint32_t i = set.begin; i < set.end; ++i) {
             const QuadBox<Scalar> box = box_of<Scalar>(items_[i]);
             const IntQuad bin = bin_of(box);
-            const std::uint32_t weight = weight_(items_[i]);
+            const auto weight = static_cast<Scalar>(weight_(items_[i]));
             for (int k = 0; k < 3; ++k) {
                 boxes_[k][bin[k]].add(box);
-                weights_[k][bin[k]] += weight;
+                weights_[bin[k]][k] += weight;
             }
+        }
+        Quad<Scalar> below[k_most_bins];  // cost of the bins before
+        Quad<Scalar> weights[k_most_bins];
+        QuadBox<Scalar> sums[3];
+        Quad<Scalar> weight{};
+        const auto add_bin = [&](int i) {
+            for (int k = 0; k < 3; ++k) sums[k].add(boxes_[k][i]);
+            weight += weights_[i];
+            return areas(sums) * weight;  // no number where there is nothing
+        };
+        for (int i = 0; i + 1 < bins_; ++i) {
+            below[i] = add_bin(i);
+            weights[i] = weight;
+        }
+        const Quad<Scalar> none{};
+        for (QuadBox<Scalar>& sum : sums) sum = {};
+        weight = none;
+        Quad<Scalar> least_cost = all_of(std::numeric_limits<Scalar>::infinity());
+        Quad<Scalar> bins{};
+        for (int i = bins_; --i > 0;) {
+            const Quad<Scalar> cost = below[i - 1] + add_bin(i);
+            const auto better = (cost < least_cost) & (weight > none) & (weights[i - 1] > none) & (scale_ > none);
+            least_cost = better ? cost : least_cost;
+            bins = better ? all_of(static_cast<Scalar>(i)) : bins;
         }
         Cut best;
-        Scalar least_cost = std::numeric_limits<Scalar>::infinity();
+        Scalar least = std::numeric_limits<Scalar>::infinity();
         for (int k = 0; k < 3; ++k) {
-            if (!(scale_[k] > 0)) continue;
-            Scalar below[k_most_bins];  // cost of the bins before
-            std::uint32_t weights[k_most_bins];
-            QuadBox<Scalar> sum;
-            std::uint32_t weight = 0;
-            for (int i = 0; i + 1 < bins_; ++i) {
-                sum.add(boxes_[k][i]);
-                weights[i] = weight += weights_[k][i];
-                below[i] = sum.area() * static_cast<Scalar>(weight);
-            }
-            sum = {};
-            weight = 0;
-            for (int i = bins_; --i > 0;) {
-                sum.add(boxes_[k][i]);
-                weight += weights_[k][i];
-                const Scalar cost =
-                    below[i - 1] + sum.area() * static_cast<Scalar>(weight);  // no number where one side is empty
-                if (weight == 0 || weights[i - 1] == 0 || !(cost < least_cost)) continue;
-                least_cost = cost;
-                best = {k, i};
-            }
+            if (!(least_cost[k] < least)) continue;
+            least = least_cost[k];
+            best = {k, static_cast<int>(bins[k])};
         }
         return best;
+    }
+    [[nodiscard, gnu::always_inline]] static Quad<Scalar> areas(const QuadBox<Scalar> (&boxes)[3]) {
+        const Quad<Scalar> extents[4] = {boxes[0].high - boxes[0].low, boxes[1].high - boxes[1].low,
+                                         boxes[2].high - boxes[2].low, {}};
+        Quad<Scalar> d[3];
+        transpose(extents, d);
+        return d[0] * d[1] + (d[1] * d[2] + d[2] * d[0]);
     }
 
     Item* items_;
@@ -144,7 +165,7 @@ class SahSplitter {
     Quad<Scalar> low_{};
     Quad<Scalar> scale_{};
     QuadBox<Scalar> boxes_[3][k_most_bins];
-    std::uint32_t weights_[3][k_most_bins];
+    Quad<Scalar> weights_[k_most_bins];
 };
 
 template <class Scalar, class Item, class Weight>

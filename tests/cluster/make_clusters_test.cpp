@@ -60,12 +60,12 @@ void expect_sound(const MeshView<Scalar>& mesh, const char* what) {
             high[k] = std::max(high[k], h[k]);
         }
     }
-    std::size_t degenerate = 0;
+    std::vector<std::uint32_t> degenerate;
     for (std::size_t i = 0; i < listed.size(); ++i) {
         const IndexTriple& t = mesh.triangles[i];
         const auto corner = [&](std::size_t c) { return detail::to_point(mesh.positions[t[c]]); };
         const bool none = detail::has_zero_area({corner(0), corner(1), corner(2)});
-        degenerate += none;
+        if (none) degenerate.push_back(static_cast<std::uint32_t>(i));
         ASSERT_EQ(listed[i], none ? 0 : 1) << "triangle " << i;
     }
     EXPECT_EQ(build.degenerate, degenerate);
