@@ -56,6 +56,14 @@ bool at_most(const Magnitude& a, const Magnitude& sum, double limit) {
 
 }  // namespace
 
+bool in_one_axis_plane(const Corners& first, const Corners& second) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double x = first[0][k];
+        if (first[1][k] == x && first[2][k] == x && second[0][k] == x && second[1][k] == x && second[2][k] == x) return true;
+    }
+    return false;
+}
+
 bool fraction_at_most(const Path& path, const Corners& corners, double limit) {
     if (!(limit >= 0)) return false;
     if (limit >= 1) return true;

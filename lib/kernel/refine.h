@@ -98,6 +98,7 @@ template <class Number>
     values.normal_error = 5 * u * (bar_n[0] + bar_n[1] + bar_n[2]);
 
     Spot& spot = values.spot;
+    spot.length = values.length;
     const double far = magnitude_of(A::rounded(x.vc)[0]) - ev;
     spot.distance = far > 0 ? far : 0;
     const Number* const po = &x.po.x;

@@ -15,6 +15,7 @@ struct Spot {
     Point error;
     Point normal;
     Point normal_error;
+    double length;    ///< |normal|
     double distance;  ///< of the start from the plane, at least but for a rounding, in units of |normal|
 };
 

@@ -57,7 +57,7 @@ struct OtherWays {
         FirstOther<Scalar, Passed> first(scene, way, counters, passed, own);
         if (list != nullptr && list->complete) {
             for (unsigned i = 0; i < list->count; ++i)
-                test_triangle<Kernel>(scene, way, list->triangles[i], options, 1, counters, first);
+                test(way, i, first);
         } else {
             traverse<Kernel>(scene, way, options, 1, counters, first);
         }

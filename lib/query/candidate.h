@@ -25,7 +25,7 @@ template <class Scalar>
     const Corners of_x = scene.corners(x.triangle);
     const Corners of_y = scene.corners(y.triangle);
     int order = 0;
-    if (of_x != of_y && !same_place(of_x, x.decision, of_y, y.decision)) {  // duplicates are common in what people model
+    if (of_x != of_y && !same_place(of_x, x.decision, of_y, y.decision) && !in_one_axis_plane(of_x, of_y)) {  // duplicates are common in what people model
         ++counters.exact_orders;
         order = compare_fractions(path, of_x, of_y);
     }

@@ -3,8 +3,9 @@
 // The verified point keeps to the start's side of the face, a grain off its plane, or as far off as the start was if
 // that is less. On the plane itself, or nearer than what rounding does to any point of the mesh, a point would be
 // behind it by the next rounding, or could not leave. So the first point to be tried is the true one P, moved off by a
-// grain along the normal, rounded; then its coordinates are rounded outwards, so that no term of n . (point - P) lacks
-// of the grain. Near edges and corners of other faces neither may be clear. Then the triangle that stops the way says
+// grain along the normal, its coordinates rounded outwards, so that no term of n . (point - P) lacks of the grain; then
+// the same rounded to nearest, which half of the time is too near to the plane (as the first one to be tried it cost a
+// tenth of an answer). Near edges and corners of other faces neither may be clear. Then the triangle that stops the way says
 // where it may be: on the start's side of its plane or past one of its three edges, seen from the start. Each of these
 // is a half-space; the nearest point of those chosen so far is tried, and what stops the way to that adds another
 // choice. All choices are gone through in the order of their distances, but those that lead further than a grain and
@@ -45,7 +46,7 @@ class PlaceSearch {
         : path_(path), corners_(corners), grain_(grain), unit_(grain / k_grain_units), per_unit_(1 / (unit_ * k_up)), spot_(spot),
           counters_(counters), ways_(ways) {
         const Point& n = spot != nullptr ? spot->normal : normal;
-        length_ = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        length_ = spot != nullptr ? spot->length : std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         const double inverse = 1 / length_;
         reach_ = k_reach_units - (spot != nullptr ? 0.125 : 1);
         double off = grain;
@@ -83,8 +84,8 @@ class PlaceSearch {
 
   private:
     bool find_near(Hit<Scalar>& hit) {
-        if (try_near(off_, k_to_nearest, hit) == Tried::clear) return true;
         if (try_near(off_, k_outwards, hit) == Tried::clear) return true;
+        if (try_near(off_, k_to_nearest, hit) == Tried::clear) return true;
         Around around{high_, low_, unit_, {}};
         for (std::size_t k = 0; k < 3; ++k)
             around.rounding[k] = last_place<Scalar>(std::abs(high_[k]) + k_reach_units * unit_) / unit_ / 2;
@@ -246,7 +247,7 @@ class PlaceSearch {
     bool is_far(const Point& point) {
         if (spot_ != nullptr) {
             double from_plane = 0;
-            double plane_error = 0x1p-1060;
+            double plane_error = k_underflow;
             double from_start = 0;
             double start_error = 0;
             double length_error = 0;
@@ -258,7 +259,7 @@ class PlaceSearch {
                 plane_error += dn * std::abs(x) + (n + dn) * spot_->error[k];
                 const double y = point[k] - path_.from[k];
                 from_start += out_[k] * y;
-                if (y != 0 && (n != 0 || spot_->normal_error[k] != 0)) start_error += dn * std::abs(y) + 0x1p-1060;
+                if (y != 0 && (n != 0 || spot_->normal_error[k] != 0)) start_error += dn * std::abs(y) + k_underflow;
                 length_error += spot_->normal_error[k];
             }
             plane_error *= 1.01;
@@ -284,6 +285,8 @@ class PlaceSearch {
     const Ways& ways_;
     /// Of a grain, so that a point that lies exactly a grain off is not refused by the roundings here (2^-47).
     static constexpr double k_far = 1 - 0x1p-40;
+    /// More than products lose where they underflow, 2^-1075 each. A normal number: products with one that is not take 150 cycles.
+    static constexpr double k_underflow = 0x1p-1000;
     static constexpr int k_most_tries = 48;
     int most_tries_ = k_most_tries;
     bool thin_ = false;
