@@ -12,14 +12,16 @@ namespace pierce::detail {
 namespace {
 
 #if defined(__SSE2__)
-// MXCSR (Intel SDM volume 1, 10.2.3): bits 0-5 flags, 6 denormals are zero, 7-12 masks, 13-14 rounding, 15 flush to zero.
+// MXCSR (Intel SDM volume 1, 10.2.3): bits 0-5 flags, 6 denormals are zero, 7-12 masks, 13-14 rounding, 15 flush to
+// zero.
 constexpr unsigned k_control = 0xffc0;
 constexpr unsigned k_standard = 0x1f80;
 
 unsigned long long read() { return _mm_getcsr(); }
 void write(unsigned long long value) { _mm_setcsr(static_cast<unsigned>(value)); }
 #elif defined(__aarch64__)
-// FPCR (Arm ARM, C5.2): bits 8-12 and 15 traps, 22-23 rounding, 24 flush to zero, 26 alternative half precision; 0, 1 of FEAT_AFP.
+// FPCR (Arm ARM, C5.2): bits 8-12 and 15 traps, 22-23 rounding, 24 flush to zero, 26 alternative half precision; 0, 1
+// of FEAT_AFP.
 constexpr unsigned long long k_control = 0x05c09f03;
 constexpr unsigned long long k_standard = 0;
 

@@ -1,4 +1,5 @@
-// An array whose elements are written before they are read: not set to zero first, so that it costs one pass less, and whichever thread
+// An array whose elements are written before they are read: not set to zero first, so that it costs one pass less, and
+// whichever thread
 // writes a page first has the trouble of getting it.
 #pragma once
 
@@ -18,8 +19,10 @@ struct Free {
     void operator()(void* memory) const { std::free(memory); }
 };
 
-/// Large ones in pages of two megabytes where the system has them, since random places in them are what queries read; the rest behind the
-/// last whole one in small pages, so that no more is used than asked for. (Measured on 276,000 faces: a sixth less time for a build,
+/// Large ones in pages of two megabytes where the system has them, since random places in them are what queries read;
+/// the rest behind the
+/// last whole one in small pages, so that no more is used than asked for. (Measured on 276,000 faces: a sixth less time
+/// for a build,
 /// a third less for queries in random order.)
 inline void* allocate_raw(std::size_t bytes, std::size_t alignment) {
     constexpr std::size_t k_page = std::size_t{1} << 21;
@@ -33,7 +36,8 @@ inline void* allocate_raw(std::size_t bytes, std::size_t alignment) {
         madvise(memory, bytes / k_page * k_page, MADV_HUGEPAGE);
 #else
     } else {
-        memory = std::aligned_alloc(std::max(alignment, alignof(std::max_align_t)), (bytes + alignment - 1) / alignment * alignment);
+        memory = std::aligned_alloc(std::max(alignment, alignof(std::max_align_t)),
+                                    (bytes + alignment - 1) / alignment * alignment);
 #endif
     }
     if (memory == nullptr && bytes > 0) throw std::bad_alloc();
@@ -44,7 +48,8 @@ template <class T>
 class RawArray {
   public:
     RawArray() = default;
-    explicit RawArray(std::size_t size) : data_(static_cast<T*>(allocate_raw(size * sizeof(T), alignof(T)))), size_(size) {}
+    explicit RawArray(std::size_t size)
+        : data_(static_cast<T*>(allocate_raw(size * sizeof(T), alignof(T)))), size_(size) {}
 
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] bool empty() const { return size_ == 0; }

@@ -1,8 +1,12 @@
-// Exact sums of products of coordinates whose exponents are too far apart for integers of a fixed width: two fixed-point numbers (Kulisch
-// 1971, a long accumulator), one for the terms with a plus and one for those with a minus, as long as the exponents in play need.
+// Exact sums of products of coordinates whose exponents are too far apart for integers of a fixed width: two
+// fixed-point numbers (Kulisch
+// 1971, a long accumulator), one for the terms with a plus and one for those with a minus, as long as the exponents in
+// play need.
 //
-// Integers on a common lattice multiply numbers that are nearly all zeros there: 33 limbs by 33. Here a product is that of three
-// mantissas, 159 bits at most, and is added where it belongs; so a volume costs 24 short products whatever the exponents.
+// Integers on a common lattice multiply numbers that are nearly all zeros there: 33 limbs by 33. Here a product is that
+// of three
+// mantissas, 159 bits at most, and is added where it belongs; so a volume costs 24 short products whatever the
+// exponents.
 #pragma once
 
 #include <cstring>
@@ -31,11 +35,13 @@ using OddPoint = std::array<Odd, 3>;
 
 [[nodiscard]] inline OddPoint odd(const Point& p) { return {Odd(p[0]), Odd(p[1]), Odd(p[2])}; }
 
-/// Products of four doubles are multiples of 2^(-4 1074) below 2^(4 1024), and 512 of them below 2^9 more: 8401 bits, 132 limbs. What is
+/// Products of four doubles are multiples of 2^(-4 1074) below 2^(4 1024), and 512 of them below 2^9 more: 8401 bits,
+/// 132 limbs. What is
 /// added may write zeros into four more.
 inline constexpr std::size_t k_most_limbs = 136;
 
-/// A number > 0 or 0: its limbs times 2^exponent, neither end a zero limb. Exponents of numbers from one lattice and degree agree modulo 64.
+/// A number > 0 or 0: its limbs times 2^exponent, neither end a zero limb. Exponents of numbers from one lattice and
+/// degree agree modulo 64.
 struct Magnitude {
     std::uint64_t limb[k_most_limbs];
     int limbs = 0;
@@ -90,8 +96,8 @@ class Accumulator {
     void add(bool minus, const Odd& x, const Odd& y) {
         const Wide xy = static_cast<Wide>(x.mantissa) * y.mantissa;
         if (xy == 0) return;
-        add_limbs(minus ^ x.negative ^ y.negative, static_cast<std::uint64_t>(xy), static_cast<std::uint64_t>(xy >> 64), 0,
-                  x.exponent + y.exponent);
+        add_limbs(minus ^ x.negative ^ y.negative, static_cast<std::uint64_t>(xy), static_cast<std::uint64_t>(xy >> 64),
+                  0, x.exponent + y.exponent);
     }
     /// x y (p - q)
     void add(bool minus, const Odd& x, const Odd& y, const Odd& p, const Odd& q) {
@@ -109,8 +115,8 @@ class Accumulator {
         for (int i = 0; i < x.limbs; ++i) {
             if (x.limb[i] == 0) continue;
             const Wide product = static_cast<Wide>(x.limb[i]) * y.mantissa;
-            add_limbs(minus ^ y.negative, static_cast<std::uint64_t>(product), static_cast<std::uint64_t>(product >> 64), 0,
-                      x.exponent + 64 * i + y.exponent);
+            add_limbs(minus ^ y.negative, static_cast<std::uint64_t>(product),
+                      static_cast<std::uint64_t>(product >> 64), 0, x.exponent + 64 * i + y.exponent);
         }
     }
 
@@ -159,7 +165,8 @@ class Accumulator {
         carry = (carry >> 64) + p[3] + ((m2 >> 1) >> (63 - shift));
         p[3] = static_cast<std::uint64_t>(carry);
         if ((carry >> 64) != 0)
-            for (int i = 4; ++p[i] == 0; ++i) {}
+            for (int i = 4; ++p[i] == 0; ++i) {
+            }
     }
 
     std::uint64_t part_[2][k_most_limbs];  // of the terms with a plus, and with a minus

@@ -6,7 +6,8 @@
 
 namespace pierce::detail {
 
-/// The closed rule: the ends pass the plane from a side that counts, and the segment meets the closed triangle. So a segment in
+/// The closed rule: the ends pass the plane from a side that counts, and the segment meets the closed triangle. So a
+/// segment in
 /// the plane, of length zero, or on a triangle of area zero (whose sides are all 0) never hits.
 [[nodiscard]] Decision decide(const Path& path, const Corners& corners, Sides sides);
 

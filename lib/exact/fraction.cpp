@@ -41,7 +41,8 @@ namespace {
 template <int N>
 bool at_most(const Integer<N>& a, const Integer<N>& sum, double limit) {
     const Bits bits(limit);
-    // a 2^shift <= mantissa sum, where limit = mantissa / 2^shift. With mantissa < 2^53, a larger shift puts the right side below 1.
+    // a 2^shift <= mantissa sum, where limit = mantissa / 2^shift. With mantissa < 2^53, a larger shift puts the right
+    // side below 1.
     const int shift = -bits.exponent;
     if (shift > bit_length(sum) + 53) return false;
     Integer<1> mantissa;
@@ -59,7 +60,8 @@ bool at_most(const Magnitude& a, const Magnitude& sum, double limit) {
 bool in_one_axis_plane(const Corners& first, const Corners& second) {
     for (std::size_t k = 0; k < 3; ++k) {
         const double x = first[0][k];
-        if (first[1][k] == x && first[2][k] == x && second[0][k] == x && second[1][k] == x && second[2][k] == x) return true;
+        if (first[1][k] == x && first[2][k] == x && second[0][k] == x && second[1][k] == x && second[2][k] == x)
+            return true;
     }
     return false;
 }

@@ -5,15 +5,18 @@
 
 namespace pierce::detail {
 
-/// The order of two hits of the same path: < 0 where the first comes before the second, 0 where their fractions are equal.
+/// The order of two hits of the same path: < 0 where the first comes before the second, 0 where their fractions are
+/// equal.
 /// Both triangles must be hit by the path.
 [[nodiscard]] int compare_fractions(const Path& path, const Corners& first, const Corners& second);
 
-/// Whether two hits of one path certainly lie on the same point because they lie on one edge or one vertex, by its coordinates: a line
+/// Whether two hits of one path certainly lie on the same point because they lie on one edge or one vertex, by its
+/// coordinates: a line
 /// that passes the plane of an edge meets it in one point. So their fractions are equal, and no arithmetic is needed.
 [[nodiscard]] bool same_place(const Corners& first, const Decision& one, const Corners& second, const Decision& two);
 
-/// Whether two triangles certainly lie in one plane across an axis, by their coordinates: then a path that hits both hits them at
+/// Whether two triangles certainly lie in one plane across an axis, by their coordinates: then a path that hits both
+/// hits them at
 /// one fraction.
 [[nodiscard]] bool in_one_axis_plane(const Corners& first, const Corners& second);
 

@@ -50,7 +50,8 @@ class Coordinate {
         return sum.sign();
     }
 
-    // The least number whose middle to the next one it does not pass. `start`: where to look first; from there in steps that double, then by halves.
+    // The least number whose middle to the next one it does not pass. `start`: where to look first; from there in steps
+    // that double, then by halves.
     template <class Scalar>
     [[nodiscard]] double rounded(double start) const {
         using R = Ranks<Scalar>;
@@ -71,8 +72,10 @@ class Coordinate {
         }
         while (low < high) {
             const Rank middle = low + (high - low) / 2;
-            if (passes(middle)) low = middle + 1;
-            else high = middle;
+            if (passes(middle))
+                low = middle + 1;
+            else
+                high = middle;
         }
         return R::value(low);
     }
@@ -90,7 +93,8 @@ struct Scaled {
     double mantissa;
     int exponent;
 
-    explicit Scaled(const Magnitude& x) : mantissa(std::ldexp(static_cast<double>(top_bits(x)), -64)), exponent(bit_length(x)) {}
+    explicit Scaled(const Magnitude& x)
+        : mantissa(std::ldexp(static_cast<double>(top_bits(x)), -64)), exponent(bit_length(x)) {}
 };
 
 }  // namespace
@@ -105,7 +109,8 @@ Point exact_position(const Path& path, const Corners& corners) {
     if (b.zero()) return path.to;
     const Scaled of_a(a);
     const Scaled of_b(b);
-    const double ratio = std::ldexp(of_b.mantissa / of_a.mantissa, std::clamp(of_b.exponent - of_a.exponent, -3000, 3000));
+    const double ratio =
+        std::ldexp(of_b.mantissa / of_a.mantissa, std::clamp(of_b.exponent - of_a.exponent, -3000, 3000));
     const double fraction = 1 / (1 + ratio);
     Point position{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -144,7 +149,8 @@ bool is_far_enough(const Corners& corners, const Point& from, const Point& point
         square += x * x;
     }
     const Scaled far(volume);
-    const int exponent = highest - far.exponent;  // of what is compared with 1/2 to 1; it is far away from that where it is large
+    const int exponent =
+        highest - far.exponent;  // of what is compared with 1/2 to 1; it is far away from that where it is large
     return far.mantissa >= std::ldexp(grain, std::clamp(exponent, -3000, 3000)) * std::sqrt(square) * (1 + 0x1p-47);
 }
 

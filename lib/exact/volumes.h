@@ -1,4 +1,5 @@
-// The five determinants that say everything about a segment and a triangle, in either arithmetic: integers of a fixed width, and sums of
+// The five determinants that say everything about a segment and a triangle, in either arithmetic: integers of a fixed
+// width, and sums of
 // products for coordinates too far apart for them. The rules read signs, and are written once.
 #pragma once
 
@@ -17,7 +18,8 @@ template <int N>
 class Volumes {
   public:
     Volumes(const Path& path, const Corners& corners, const Lattice& lattice)
-        : from_(on_lattice<N>(path.from, lattice)), to_(on_lattice<N>(path.to, lattice)),
+        : from_(on_lattice<N>(path.from, lattice)),
+          to_(on_lattice<N>(path.to, lattice)),
           corner_{on_lattice<N>(corners[0], lattice), on_lattice<N>(corners[1], lattice),
                   on_lattice<N>(corners[2], lattice)},
           normal_(cross(corner_[1] - corner_[0], corner_[2] - corner_[0])) {}
@@ -25,8 +27,10 @@ class Volumes {
     [[nodiscard]] Integer<3 * N> from_side() const { return side_volume<N>(normal_, corner_[0], from_); }
     [[nodiscard]] Integer<3 * N> to_side() const { return side_volume<N>(normal_, corner_[0], to_); }
 
-    /// (to - from) . ((next - from) x (other - from)) for corner k, where `other` and `next` are the two corners after it.
-    /// The three add up to from_side() - to_side(); divided by that sum they are the barycentric weights of the point where the
+    /// (to - from) . ((next - from) x (other - from)) for corner k, where `other` and `next` are the two corners after
+    /// it.
+    /// The three add up to from_side() - to_side(); divided by that sum they are the barycentric weights of the point
+    /// where the
     /// line through the segment meets the plane (Cramer's rule). In front of the triangle the weight is positive
     /// on the inner side of the edge opposite to corner k.
     [[nodiscard]] Integer<3 * N> weight(int k) const {
@@ -38,7 +42,9 @@ class Volumes {
     /// The sign of n . (e, e^2, e^3) for e -> 0+.
     [[nodiscard]] int normal_shift() const { return first_sign(normal_); }
     /// The same for (to - from) x (the edge opposite to corner k, from the corner before it to the one after it).
-    [[nodiscard]] int edge_shift(int k) const { return first_sign(cross(to_ - from_, corner_[(k + 1) % 3] - corner_[(k + 2) % 3])); }
+    [[nodiscard]] int edge_shift(int k) const {
+        return first_sign(cross(to_ - from_, corner_[(k + 1) % 3] - corner_[(k + 2) % 3]));
+    }
 
   private:
     static int first_sign(const Vector<2 * N>& v) {
@@ -57,15 +63,21 @@ class Volumes {
 class WideVolumes {
   public:
     WideVolumes(const Path& path, const Corners& corners, const Lattice& lattice)
-        : lattice_(lattice), from_(odd(path.from)), to_(odd(path.to)), corner_{odd(corners[0]), odd(corners[1]), odd(corners[2])} {}
+        : lattice_(lattice),
+          from_(odd(path.from)),
+          to_(odd(path.to)),
+          corner_{odd(corners[0]), odd(corners[1]), odd(corners[2])} {}
 
     [[nodiscard]] Accumulator from_side() const { return volume(corner_[0], corner_[1], corner_[2], from_); }
     [[nodiscard]] Accumulator to_side() const { return volume(corner_[0], corner_[1], corner_[2], to_); }
-    [[nodiscard]] Accumulator weight(int k) const { return volume(from_, corner_[(k + 2) % 3], corner_[(k + 1) % 3], to_); }
+    [[nodiscard]] Accumulator weight(int k) const {
+        return volume(from_, corner_[(k + 2) % 3], corner_[(k + 1) % 3], to_);
+    }
 
     [[nodiscard]] int normal_shift() const {
         for (std::size_t k = 0; k < 3; ++k)
-            if (const int sign = wide_normal(corner_[0], corner_[1], corner_[2], k, lattice_).sign(); sign != 0) return sign;
+            if (const int sign = wide_normal(corner_[0], corner_[1], corner_[2], k, lattice_).sign(); sign != 0)
+                return sign;
         return 0;
     }
     [[nodiscard]] int edge_shift(int corner) const {
@@ -88,7 +100,8 @@ class WideVolumes {
     }
 
     /// Component k of (b - a) x (c - a), as a x b + b x c + c x a.
-    static Accumulator wide_normal(const OddPoint& a, const OddPoint& b, const OddPoint& c, std::size_t k, const Lattice& lattice) {
+    static Accumulator wide_normal(const OddPoint& a, const OddPoint& b, const OddPoint& c, std::size_t k,
+                                   const Lattice& lattice) {
         const std::size_t i = (k + 1) % 3;
         const std::size_t j = (k + 2) % 3;
         Accumulator sum(lattice, 2);
@@ -100,11 +113,13 @@ class WideVolumes {
     }
 
   private:
-    // (b - a) x (c - a) . (x - a) is minus the determinant of the rows (p, 1), p = a, b, c, x. By Laplace along two pairs of columns, x y and
+    // (b - a) x (c - a) . (x - a) is minus the determinant of the rows (p, 1), p = a, b, c, x. By Laplace along two
+    // pairs of columns, x y and
     // z 1: for each pair of rows i < j with the others k < l, (-1)^(i+j+1) (x_i y_j - x_j y_i) (z_k - z_l).
     [[nodiscard]] Accumulator volume(const OddPoint& a, const OddPoint& b, const OddPoint& c, const OddPoint& x) const {
         Accumulator sum(lattice_, 3);
-        const auto rows = [&sum](bool minus, const OddPoint& i, const OddPoint& j, const OddPoint& k, const OddPoint& l) {
+        const auto rows = [&sum](bool minus, const OddPoint& i, const OddPoint& j, const OddPoint& k,
+                                 const OddPoint& l) {
             sum.add(minus, i[0], j[1], k[2], l[2]);
             sum.add(!minus, j[0], i[1], k[2], l[2]);
         };
@@ -131,13 +146,14 @@ class WideVolumes {
     return lattice;
 }
 
-/// Calls `f` with the `Volumes` of a segment and a triangle, in the least width that holds them, else its `WideVolumes`.
+/// Calls `f` with the `Volumes` of a segment and a triangle, in the least width that holds them, else its
+/// `WideVolumes`.
 template <class F>
 decltype(auto) with_volumes(const Path& path, const Corners& corners, F&& f) {
     const Lattice lattice = lattice_of(path, corners);
-    return with_limbs(lattice.bits(),
-                      [&]<int N>(std::integral_constant<int, N>) { return f(Volumes<N>(path, corners, lattice)); },
-                      [&] { return f(WideVolumes(path, corners, lattice)); });
+    return with_limbs(
+        lattice.bits(), [&]<int N>(std::integral_constant<int, N>) { return f(Volumes<N>(path, corners, lattice)); },
+        [&] { return f(WideVolumes(path, corners, lattice)); });
 }
 
 }  // namespace pierce::detail

@@ -31,7 +31,9 @@ struct Avx2 {
         return _mm256_castsi256_ps(_mm256_max_epi32(_mm256_castps_si256(x), _mm256_castps_si256(y)));
     }
     static Float none_where(Mask mask, Float keys) { return greater(keys, _mm256_and_ps(mask, all(__builtin_inff()))); }
-    static Float none_but(Mask mask, Float keys) { return greater(keys, _mm256_andnot_ps(mask, all(__builtin_inff()))); }
+    static Float none_but(Mask mask, Float keys) {
+        return greater(keys, _mm256_andnot_ps(mask, all(__builtin_inff())));
+    }
 
     static Float words(const std::uint16_t* x) {
         return _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(x))));
@@ -41,8 +43,10 @@ struct Avx2 {
     }
 
     static Float key(Float entry, unsigned first) {
-        const __m256i places = _mm256_add_epi32(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(static_cast<int>(first)));
-        return _mm256_castsi256_ps(_mm256_or_si256(_mm256_and_si256(_mm256_castps_si256(entry), _mm256_set1_epi32(~15)), places));
+        const __m256i places =
+            _mm256_add_epi32(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(static_cast<int>(first)));
+        return _mm256_castsi256_ps(
+            _mm256_or_si256(_mm256_and_si256(_mm256_castps_si256(entry), _mm256_set1_epi32(~15)), places));
     }
     static Mask same(Float x, Float y) {
         return _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_castps_si256(x), _mm256_castps_si256(y)));
@@ -58,8 +62,12 @@ struct Avx2 {
         return static_cast<std::uint32_t>(_mm_cvtsi128_si32(half));
     }
 
-    static Float corner_row(const float* row, float origin, float) { return _mm256_loadu_ps(row) - _mm256_set1_ps(origin); }
-    static Float joined(__m256d low, __m256d high) { return _mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low)); }
+    static Float corner_row(const float* row, float origin, float) {
+        return _mm256_loadu_ps(row) - _mm256_set1_ps(origin);
+    }
+    static Float joined(__m256d low, __m256d high) {
+        return _mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low));
+    }
     static Float corner_row(const double* row, double origin, double scale) {
         const __m256d o = _mm256_set1_pd(origin);
         const __m256d s = _mm256_set1_pd(scale);
@@ -67,7 +75,8 @@ struct Avx2 {
     }
     static Float row_difference(const double* x, const double* y, double scale) {
         const __m256d s = _mm256_set1_pd(scale);
-        return joined((_mm256_loadu_pd(x) - _mm256_loadu_pd(y)) * s, (_mm256_loadu_pd(x + 4) - _mm256_loadu_pd(y + 4)) * s);
+        return joined((_mm256_loadu_pd(x) - _mm256_loadu_pd(y)) * s,
+                      (_mm256_loadu_pd(x + 4) - _mm256_loadu_pd(y + 4)) * s);
     }
 };
 

@@ -1,4 +1,5 @@
-// The wide kernels of an instruction set, as a table of functions: each set has a file of its own, compiled with flags of its own.
+// The wide kernels of an instruction set, as a table of functions: each set has a file of its own, compiled with flags
+// of its own.
 #pragma once
 
 #include <cluster/record.h>
@@ -12,9 +13,12 @@ namespace pierce::detail {
 template <class Scalar>
 struct ScalarKernels {
     /// Makes a segment ready. False: it certainly touches nothing.
-    bool (*set_probe)(const Frame& frame, const double* from, const double* to, bool front_only, bool back_only, Probe<Scalar>& probe);
-    /// Visits the clusters of which triangles may be hit at a parameter up to `limit`, nearest first (traverse.h); counts in the probe.
-    void (*traverse)(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit, void* self);
+    bool (*set_probe)(const Frame& frame, const double* from, const double* to, bool front_only, bool back_only,
+                      Probe<Scalar>& probe);
+    /// Visits the clusters of which triangles may be hit at a parameter up to `limit`, nearest first (traverse.h);
+    /// counts in the probe.
+    void (*traverse)(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit,
+                     void* self);
     /// Traversals of many segments (flight.h).
     void (*fly)(const TreeView& tree, const Scalar* records, const Flight<Scalar>& flight);
     /// The triangles of one cluster that may be hit (cluster_test.h), a bit for each.
@@ -29,8 +33,10 @@ struct Backend {
 
     template <class Scalar>
     [[nodiscard]] const ScalarKernels<Scalar>& of() const {
-        if constexpr (sizeof(Scalar) == sizeof(float)) return of_floats;
-        else return of_doubles;
+        if constexpr (sizeof(Scalar) == sizeof(float))
+            return of_floats;
+        else
+            return of_doubles;
     }
 };
 

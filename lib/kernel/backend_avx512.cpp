@@ -1,5 +1,7 @@
-// The kernels on AVX-512: nodes of queries in flight sixteen numbers at once (measured: 5 to 10 % less time on Sapphire Rapids). A single query, which
-// waits for results and not for units, is no faster so; nor are clusters, which have no more than eight triangles. Compiled with flags of its own
+// The kernels on AVX-512: nodes of queries in flight sixteen numbers at once (measured: 5 to 10 % less time on Sapphire
+// Rapids). A single query, which
+// waits for results and not for units, is no faster so; nor are clusters, which have no more than eight triangles.
+// Compiled with flags of its own
 // (lib/CMakeLists.txt), see set_probe.h.
 #include <kernel/avx2.h>
 #include <kernel/table.h>
@@ -31,11 +33,14 @@ struct Avx512 {
 
     static Float key(Float entry, unsigned) {
         const __m512i places = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-        return _mm512_castsi512_ps(_mm512_or_si512(_mm512_andnot_si512(_mm512_set1_epi32(15), _mm512_castps_si512(entry)), places));
+        return _mm512_castsi512_ps(
+            _mm512_or_si512(_mm512_andnot_si512(_mm512_set1_epi32(15), _mm512_castps_si512(entry)), places));
     }
     static Float none_where(Mask mask, Float keys) { return _mm512_mask_mov_ps(keys, mask, all(__builtin_inff())); }
     static Float none_but(Mask mask, Float keys) { return _mm512_mask_mov_ps(all(__builtin_inff()), mask, keys); }
-    static Mask same(Float x, Float y) { return _mm512_cmpeq_epi32_mask(_mm512_castps_si512(x), _mm512_castps_si512(y)); }
+    static Mask same(Float x, Float y) {
+        return _mm512_cmpeq_epi32_mask(_mm512_castps_si512(x), _mm512_castps_si512(y));
+    }
     static std::uint32_t least_of(Float x) {
         const __m512i whole = _mm512_castps_si512(x);
         const __m256i half = _mm256_min_epi32(_mm512_castsi512_si256(whole), _mm512_extracti64x4_epi64(whole, 1));

@@ -48,11 +48,16 @@ struct Neon {
     }
     static std::uint32_t least_of(Float x) { return vminvq_u32(vreinterpretq_u32_f32(x)); }
 
-    static Float corner_row(const float* row, float origin, float) { return vsubq_f32(vld1q_f32(row), vdupq_n_f32(origin)); }
-    static Float joined(float64x2_t low, float64x2_t high) { return vcombine_f32(vcvt_f32_f64(low), vcvt_f32_f64(high)); }
+    static Float corner_row(const float* row, float origin, float) {
+        return vsubq_f32(vld1q_f32(row), vdupq_n_f32(origin));
+    }
+    static Float joined(float64x2_t low, float64x2_t high) {
+        return vcombine_f32(vcvt_f32_f64(low), vcvt_f32_f64(high));
+    }
     static Float corner_row(const double* row, double origin, double scale) {
         const float64x2_t o = vdupq_n_f64(origin);
-        return joined(vmulq_n_f64(vsubq_f64(vld1q_f64(row), o), scale), vmulq_n_f64(vsubq_f64(vld1q_f64(row + 2), o), scale));
+        return joined(vmulq_n_f64(vsubq_f64(vld1q_f64(row), o), scale),
+                      vmulq_n_f64(vsubq_f64(vld1q_f64(row + 2), o), scale));
     }
     static Float row_difference(const double* x, const double* y, double scale) {
         return joined(vmulq_n_f64(vsubq_f64(vld1q_f64(x), vld1q_f64(y)), scale),

@@ -1,4 +1,5 @@
-// One number at a time, for machines whose instruction set has no file of its own, and to compare the others with; see set_probe.h.
+// One number at a time, for machines whose instruction set has no file of its own, and to compare the others with; see
+// set_probe.h.
 #include <kernel/table.h>
 
 namespace pierce::detail {
@@ -49,7 +50,9 @@ struct Plain {
     static Float corner_row(const Scalar* row, Scalar origin, Scalar scale) {
         return static_cast<float>((*row - origin) * scale);
     }
-    static Float row_difference(const double* x, const double* y, double scale) { return static_cast<float>((*x - *y) * scale); }
+    static Float row_difference(const double* x, const double* y, double scale) {
+        return static_cast<float>((*x - *y) * scale);
+    }
 };
 
 }  // namespace

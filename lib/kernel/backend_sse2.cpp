@@ -26,7 +26,9 @@ struct Sse2 {
     static unsigned bits(Mask x) { return static_cast<unsigned>(_mm_movemask_ps(x)); }
     // Of a key that is NaN, as places without a child may have, the second operand is taken: infinity where it counts.
     static Float none_where(Mask mask, Float keys) { return _mm_max_ps(keys, _mm_and_ps(mask, all(__builtin_inff()))); }
-    static Float none_but(Mask mask, Float keys) { return _mm_max_ps(keys, _mm_andnot_ps(mask, all(__builtin_inff()))); }
+    static Float none_but(Mask mask, Float keys) {
+        return _mm_max_ps(keys, _mm_andnot_ps(mask, all(__builtin_inff())));
+    }
 
     static Float words(const std::uint16_t* x) {
         const __m128i four = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(x));
@@ -43,7 +45,9 @@ struct Sse2 {
         const __m128i places = _mm_add_epi32(_mm_setr_epi32(0, 1, 2, 3), _mm_set1_epi32(static_cast<int>(first)));
         return _mm_castsi128_ps(_mm_or_si128(_mm_and_si128(_mm_castps_si128(entry), _mm_set1_epi32(~15)), places));
     }
-    static Mask same(Float x, Float y) { return _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_castps_si128(x), _mm_castps_si128(y))); }
+    static Mask same(Float x, Float y) {
+        return _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_castps_si128(x), _mm_castps_si128(y)));
+    }
     // Keys as floats are in the order of their bits.
     static Float least(Float x, Float y) { return _mm_min_ps(x, y); }
     static std::uint32_t least_of(Float x) {

@@ -1,8 +1,12 @@
-// The narrow phase in double precision, one triangle at a time: says hit, miss or doubtful, and is never wrong about the first two.
+// The narrow phase in double precision, one triangle at a time: says hit, miss or doubtful, and is never wrong about
+// the first two.
 //
-// Bloom's inequalities (2002, "Fast ray tri (with precomputation)", with the signs of one line put right), on volumes in place of
-// stored planes, as in Moller and Trumbore 1997: nothing is stored but the corners, so the build has no planes to make exact, and
-// half of the memory is left to caches. Measured against Bloom's planes: README.md, "The narrow phase". FilterVolumes and bounds: meeting.h.
+// Bloom's inequalities (2002, "Fast ray tri (with precomputation)", with the signs of one line put right), on volumes
+// in place of
+// stored planes, as in Moller and Trumbore 1997: nothing is stored but the corners, so the build has no planes to make
+// exact, and
+// half of the memory is left to caches. Measured against Bloom's planes: README.md, "The narrow phase". FilterVolumes
+// and bounds: meeting.h.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +35,8 @@ void measure_path(const Corners& corners, const Path& path, Measured& measured) 
     const auto pairs = [](const Point& x, const Point& y) {
         return Triple<Pair>{Pair{x[0], y[0]}, Pair{x[1], y[1]}, Pair{x[2], y[2]}};
     };
-    measure_lines<Scalar>({pairs(corners[1], corners[0]), pairs(corners[2], path.to), pairs(corners[0], path.from)}, measured);
+    measure_lines<Scalar>({pairs(corners[1], corners[0]), pairs(corners[2], path.to), pairs(corners[0], path.from)},
+                          measured);
 }
 
 /// The corners that were measured.
@@ -57,7 +62,8 @@ struct VolumeErrors {
 /// The volumes, and those that are differences of others.
 struct FilterVolumes {
     explicit FilterVolumes(const Measured& x) : s(x.s()), v(x.v()), b(x.b()), c(x.c()), a(s - b - c), end(v - s) {}
-    FilterVolumes(double s_, double v_, double b_, double c_, double a_, double end_) : s(s_), v(v_), b(b_), c(c_), a(a_), end(end_) {}
+    FilterVolumes(double s_, double v_, double b_, double c_, double a_, double end_)
+        : s(s_), v(v_), b(b_), c(c_), a(a_), end(end_) {}
     double s, v, b, c, a, end;
 };
 
@@ -71,7 +77,8 @@ inline void set_interval(const FilterVolumes& x, const VolumeErrors& e, Filtered
     filtered.latest = quotients[1] * (1 + 0x1p-49);
 }
 
-/// Strict inequalities between exact values: a hit touches neither an edge nor a plane, so the closed rule and every perturbation of it agree. A miss
+/// Strict inequalities between exact values: a hit touches neither an edge nor a plane, so the closed rule and every
+/// perturbation of it agree. A miss
 /// does not even touch.
 [[nodiscard]] inline Filtered filter_volumes(const FilterVolumes& x, const VolumeErrors& e, Sides sides) {
     const double v = x.v;
@@ -82,14 +89,19 @@ inline void set_interval(const FilterVolumes& x, const VolumeErrors& e, Filtered
     const double b = x.b;
     const double c = x.c;
     const double a = x.a;
-    const auto any = [](bool p, bool q, bool r) { return static_cast<int>(p) | static_cast<int>(q) | static_cast<int>(r); };
-    if ((!front || any(a > e.a, b > e.b, c > e.c) != 0) && (!back || any(a < -e.a, b < -e.b, c < -e.c) != 0)) return {Verdict::miss};
+    const auto any = [](bool p, bool q, bool r) {
+        return static_cast<int>(p) | static_cast<int>(q) | static_cast<int>(r);
+    };
+    if ((!front || any(a > e.a, b > e.b, c > e.c) != 0) && (!back || any(a < -e.a, b < -e.b, c < -e.c) != 0))
+        return {Verdict::miss};
 
     Filtered filtered{Verdict::doubtful};
     set_interval(x, e, filtered);
     if (front && back) return filtered;  // both ends may lie in the plane
     const double sign = front ? -1 : 1;
-    if (any(!(sign * a > e.a), !(sign * b > e.b), !(sign * c > e.c)) != 0 || !(sign * v > e.v) || !(sign * end < -e.end)) return filtered;
+    if (any(!(sign * a > e.a), !(sign * b > e.b), !(sign * c > e.c)) != 0 || !(sign * v > e.v) ||
+        !(sign * end < -e.end))
+        return filtered;
     filtered.verdict = Verdict::hit;
     filtered.decision.hit = true;
     filtered.decision.side = front ? Sides::front : Sides::back;
@@ -100,26 +112,36 @@ inline void set_interval(const FilterVolumes& x, const VolumeErrors& e, Filtered
     return x.tame ? filter_volumes(FilterVolumes(x), e, sides) : Filtered{Verdict::doubtful};
 }
 
-/// The closed rule where some volumes are certainly 0, as those of planes, edges and starts along axes are: each product in them is.
-[[nodiscard]] [[gnu::noinline]] inline Verdict settle(const Measured& x, const VolumeErrors& e, Sides sides, Decision& decision) {
+/// The closed rule where some volumes are certainly 0, as those of planes, edges and starts along axes are: each
+/// product in them is.
+[[nodiscard]] [[gnu::noinline]] inline Verdict settle(const Measured& x, const VolumeErrors& e, Sides sides,
+                                                      Decision& decision) {
     constexpr int k_unknown = 2;
-    const auto sign = [](double y, double bound) { return y > bound ? 1 : y < -bound ? -1 : bound == 0 ? 0 : k_unknown; };
+    const auto sign = [](double y, double bound) {
+        return y > bound ? 1 : y < -bound ? -1 : bound == 0 ? 0 : k_unknown;
+    };
     const int v = sign(x.v(), e.v);
     const int end = sign(x.v() - x.s(), e.end);
     if (v == k_unknown || end == k_unknown) return Verdict::doubtful;
-    if (!(passes_front(-v, -end) && sides != Sides::back) && !(passes_back(-v, -end, sides) && sides != Sides::front)) return Verdict::miss;
-    // The weight of a has no bar of 0 as a difference. As a volume of its own: (b - c) . ((b - from) x d), with bounds as the others'.
+    if (!(passes_front(-v, -end) && sides != Sides::back) && !(passes_back(-v, -end, sides) && sides != Sides::front))
+        return Verdict::miss;
+    // The weight of a has no bar of 0 as a difference. As a volume of its own: (b - c) . ((b - from) x d), with bounds
+    // as the others'.
     const Triple<Pair>& ba = x.lines.ba;
     const Triple<Pair>& ct = x.lines.ct;
     const Triple<Pair>& af = x.lines.af;
     const Triple<double> bc = {ba.x[0] - ct.x[0], ba.y[0] - ct.y[0], ba.z[0] - ct.z[0]};
     const Triple<double> ob = {ba.x[0] - af.x[1], ba.y[0] - af.y[1], ba.z[0] - af.z[1]};
     const Triple<double> d = {x.meeting.qd.x[1], x.meeting.qd.y[1], x.meeting.qd.z[1]};
-    const auto size = [](const Triple<double>& y) { return Triple<double>{std::abs(y.x), std::abs(y.y), std::abs(y.z)}; };
+    const auto size = [](const Triple<double>& y) {
+        return Triple<double>{std::abs(y.x), std::abs(y.y), std::abs(y.z)};
+    };
     const double bar = dot(size(bc), cross_of_magnitudes(size(ob), size(d)));
     const int own = sign(dot(bc, cross(ob, d)), 9 * Arithmetic<double>::unit * bar);
-    const int weights[3] = {own != k_unknown ? own : sign(x.s() - x.b() - x.c(), e.a), sign(x.b(), e.b), sign(x.c(), e.c)};
-    // Where one has the wrong sign it is a miss, whatever the others are. (A weight of the front has the sign of s, which is < 0.)
+    const int weights[3] = {own != k_unknown ? own : sign(x.s() - x.b() - x.c(), e.a), sign(x.b(), e.b),
+                            sign(x.c(), e.c)};
+    // Where one has the wrong sign it is a miss, whatever the others are. (A weight of the front has the sign of s,
+    // which is < 0.)
     bool unknown = false;
     for (const int w : weights) {
         if (w == (end > 0 ? 1 : -1)) return Verdict::miss;

@@ -1,8 +1,11 @@
-// The filter's answer in double-double, for what it leaves in doubt: ends within some units in the last place of a plane, as
-// every particle that rests on a tilted floor has them, and lines within as little of an edge. What is exactly on a plane or
+// The filter's answer in double-double, for what it leaves in doubt: ends within some units in the last place of a
+// plane, as
+// every particle that rests on a tilted floor has them, and lines within as little of an edge. What is exactly on a
+// plane or
 // an edge stays doubtful.
 //
-// FilterVolumes and bounds are those of meeting.h with the unit of double-doubles. Each volume is rounded to double once, which keeps
+// FilterVolumes and bounds are those of meeting.h with the unit of double-doubles. Each volume is rounded to double
+// once, which keeps
 // its sign and is off by 2^-53 of itself: so it is compared with bounds that are that much larger.
 #pragma once
 
@@ -23,7 +26,8 @@ namespace pierce::detail {
     const auto v = lane(x.vc, 0);
     const auto c = -lane(x.vc, 1);
     using S = Arithmetic<A::Single>;
-    const FilterVolumes volumes(S::rounded(s), S::rounded(v), S::rounded(b), S::rounded(c), S::rounded(s - b - c), S::rounded(v - s));
+    const FilterVolumes volumes(S::rounded(s), S::rounded(v), S::rounded(b), S::rounded(c), S::rounded(s - b - c),
+                                S::rounded(v - s));
     return filter_volumes(volumes, VolumeErrors(bars, A::unit * (1 + 0x1p-50)), sides);
 }
 

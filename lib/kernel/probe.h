@@ -5,7 +5,8 @@
 
 namespace pierce::detail {
 
-/// Parameters t of a probe run from 0 to 1 over the part of the segment that may touch the scene: nearly always all of it. Of each four numbers
+/// Parameters t of a probe run from 0 to 1 over the part of the segment that may touch the scene: nearly always all of
+/// it. Of each four numbers
 /// the last is of no use.
 template <class Scalar>
 struct Probe {
@@ -45,7 +46,8 @@ struct Probe {
     std::uint32_t clusters;
 };
 
-/// What a traversal does with a cluster whose `lanes` may be hit. Returns the parameter beyond which nothing is of use any more, rounded up; negative:
+/// What a traversal does with a cluster whose `lanes` may be hit. Returns the parameter beyond which nothing is of use
+/// any more, rounded up; negative:
 /// the traversal ends.
 using Visit = float (*)(void* self, std::uint32_t cluster, unsigned lanes);
 

@@ -1,17 +1,23 @@
-// The values of a hit from the volumes of its meeting, in double or in twice that precision, each with a bound for its error.
+// The values of a hit from the volumes of its meeting, in double or in twice that precision, each with a bound for its
+// error.
 //
-// With meeting.h's bounds e_s = 9u S, e_v = 9u V, and e_w = 12u (S + B + C) for any weight, e_s <= 2^-10 |s|, and u the number's unit:
-//   fraction  |v~ / s~ - v / s| <= (e_v + t e_s) / (|s~| - e_s) and the quotient's own 2u t: below 1.01 (e_v + t e_s) / |s| + 2u t
+// With meeting.h's bounds e_s = 9u S, e_v = 9u V, and e_w = 12u (S + B + C) for any weight, e_s <= 2^-10 |s|, and u the
+// number's unit:
+//   fraction  |v~ / s~ - v / s| <= (e_v + t e_s) / (|s~| - e_s) and the quotient's own 2u t: below 1.01 (e_v + t e_s) /
+//   |s| + 2u t
 //   weights   b, c in the same way; a = 1 - b - c: what b and c are off, 9u (B + C + (b + c) S) / |s| and 2u (b + c), and two sums, 2u each: all are
 //             below 1.01 (e_w + e_s) / |s| + 8u
 //   normal    a component is off by 5u N_k, and by 2^-53 of itself where it was rounded from a double-double.
-// A quotient of double-doubles keeps its bound where nothing underflows: where it is 0 or at least 2^-200, so that it times s is a multiple of 2^-1008.
+// A quotient of double-doubles keeps its bound where nothing underflows: where it is 0 or at least 2^-200, so that it
+// times s is a multiple of 2^-1008.
 //
-// The true point is P = from + t d = a + b p + c q, each coordinate by the formula whose terms vary less: so floors along two axes and paths along one
+// The true point is P = from + t d = a + b p + c q, each coordinate by the formula whose terms vary less: so floors
+// along two axes and paths along one
 // come out exact, and errors are those of the mesh's coordinates where the segment's end is far away. Its error:
 //   along the path    |d| e_t + u |d| (the product) + u (|from| + |d|) (the sum) + u (|from| + |d|) (d itself)
 //   in the triangle   (|p| + |q|) e_w + u (|p| + |q|) + 2u (|a| + |p| + |q|) + u (|a| + |p| + |q|)
-// in both cases below reach e + 5u (|base| + reach), reach being |d| or |p| + |q|; where that is 0 there is nothing to be off. It is taken twice, for terms
+// in both cases below reach e + 5u (|base| + reach), reach being |d| or |p| + |q|; where that is 0 there is nothing to
+// be off. It is taken twice, for terms
 // of second order and the roundings here.
 #pragma once
 
@@ -35,19 +41,25 @@ struct Values {
 /// One lane of a pair.
 [[nodiscard]] [[gnu::always_inline]] inline double lane(Pair x, int i) { return x[i]; }
 template <class Product>
-[[nodiscard]] [[gnu::always_inline]] inline BasicDoubleDouble<double, Product> lane(const BasicDoubleDouble<Pair, Product>& x, int i) {
+[[nodiscard]] [[gnu::always_inline]] inline BasicDoubleDouble<double, Product> lane(
+    const BasicDoubleDouble<Pair, Product>& x, int i) {
     return {x.high[i], x.low[i]};
 }
 [[nodiscard]] [[gnu::always_inline]] inline double low_part(double) { return 0; }
 template <class Product>
-[[nodiscard]] [[gnu::always_inline]] inline double low_part(const BasicDoubleDouble<double, Product>& x) { return x.low; }
+[[nodiscard]] [[gnu::always_inline]] inline double low_part(const BasicDoubleDouble<double, Product>& x) {
+    return x.low;
+}
 [[nodiscard]] [[gnu::always_inline]] inline double high_part(double x) { return x; }
 template <class Product>
-[[nodiscard]] [[gnu::always_inline]] inline double high_part(const BasicDoubleDouble<double, Product>& x) { return x.high; }
+[[nodiscard]] [[gnu::always_inline]] inline double high_part(const BasicDoubleDouble<double, Product>& x) {
+    return x.high;
+}
 
 [[nodiscard]] [[gnu::always_inline]] inline double clamped(double x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
 
-/// Two at once, as a point is copied soon after: that would wait for numbers written one by one. (Of a Point no function is used: what std::array has is
+/// Two at once, as a point is copied soon after: that would wait for numbers written one by one. (Of a Point no
+/// function is used: what std::array has is
 /// not of one file alone.)
 [[gnu::always_inline]] inline void store(const double (&x)[3], Point* to) {
     const Pair first = {x[0], x[1]};
@@ -90,7 +102,8 @@ template <class Number>
     values.fraction_error = over * (ev + values.fraction * es) + 2 * u * values.fraction;
     const double of_weights = over * (ew + es) + 8 * u;
     values.weight_error = of_weights;
-    values.good = bars.tame && es < size * 0x1p-10 && not_lost(high_part(t)) && not_lost(high_part(b)) && not_lost(high_part(c));
+    values.good =
+        bars.tame && es < size * 0x1p-10 && not_lost(high_part(t)) && not_lost(high_part(b)) && not_lost(high_part(c));
 
     const double n[3] = {A::rounded(x.nr.x)[0], A::rounded(x.nr.y)[0], A::rounded(x.nr.z)[0]};
     const double bar_n[3] = {bars.bar_nr.x[0], bars.bar_nr.y[0], bars.bar_nr.z[0]};

@@ -1,6 +1,8 @@
-// Many segments' ways through the tree at once, each a step at a time, so that one's memory comes while others are looked at.
+// Many segments' ways through the tree at once, each a step at a time, so that one's memory comes while others are
+// looked at.
 //
-// Queries in flight are kept in lists by their next step: a node, a cluster, or the next of the stack. All of a list take their step in turn,
+// Queries in flight are kept in lists by their next step: a node, a cluster, or the next of the stack. All of a list
+// take their step in turn,
 // without branches on what they find; what the step after that reads is asked of memory at once.
 #pragma once
 

@@ -1,17 +1,25 @@
 // Makes a segment ready for the wide kernels; a segment much longer than the scene is clipped to its box first.
 //
-// Included by backend_*.cpp, as all of the wide kernels' headers: nothing here may be shared with other files, so no standard header with
+// Included by backend_*.cpp, as all of the wide kernels' headers: nothing here may be shared with other files, so no
+// standard header with
 // inline functions, and every function depends on a type of an unnamed namespace.
 //
-// In scene units, relative to Frame::low, the scene is in [0, 2]. x = from * unit - low is within 2^-52 |x| of the exact one, as unit is a power of
-// two (underflow: 2^-1074, less than the noise); d = (to - from) * unit is within 2^-52 |d|. So a point x + t d is within
+// In scene units, relative to Frame::low, the scene is in [0, 2]. x = from * unit - low is within 2^-52 |x| of the
+// exact one, as unit is a power of
+// two (underflow: 2^-1074, less than the noise); d = (to - from) * unit is within 2^-52 |d|. So a point x + t d is
+// within
 // 2^-52 (|x| + 2 |x + d|) of the exact one, which is part of `noise`.
 //
-// Where an end is further than k_far from the lattice's corner the segment is clipped. From the nearer end on, y + r e with r in [0, 1] has left
-// [-1/8, 17/8] before r_in and after r_out; (bound - y) and the quotient round three times, so r is within 2^-50 of itself, which moves a point by at
-// most 2^-50 (|y| + |e| r) < 2^-49 (|y| + 4): nothing that is within the eighth of the scene less the noise is lost if that
-// is below 1/16, and what is lost in the place of the points is added to the noise. From a near end, |y| <= k_far, the length
-// does not matter. Where both ends are far, the noise grows with the distance of the nearer one: from 2^30 scenes on boxes
+// Where an end is further than k_far from the lattice's corner the segment is clipped. From the nearer end on, y + r e
+// with r in [0, 1] has left
+// [-1/8, 17/8] before r_in and after r_out; (bound - y) and the quotient round three times, so r is within 2^-50 of
+// itself, which moves a point by at
+// most 2^-50 (|y| + |e| r) < 2^-49 (|y| + 4): nothing that is within the eighth of the scene less the noise is lost if
+// that
+// is below 1/16, and what is lost in the place of the points is added to the noise. From a near end, |y| <= k_far, the
+// length
+// does not matter. Where both ends are far, the noise grows with the distance of the nearer one: from 2^30 scenes on
+// boxes
 // are told apart less and less well, and from 2^46 on everything is visited.
 #pragma once
 
@@ -34,7 +42,8 @@ template <class Wide>
 
 /// Clips. Returns false where nothing is left. `whole` has origin and direction of the whole segment.
 template <class Wide, class Scalar>
-[[gnu::noinline]] bool clip(const Frame& frame, const double* from, const double* to, Probe<Scalar>& probe, double* moved_from, double* moved) {
+[[gnu::noinline]] bool clip(const Frame& frame, const double* from, const double* to, Probe<Scalar>& probe,
+                            double* moved_from, double* moved) {
     double ends[2][3];
     double reach[2] = {0, 0};
     for (int k = 0; k < 3; ++k) {
@@ -96,16 +105,20 @@ typedef std::uint32_t FourRows __attribute__((vector_size(16)));
 
 /// Returns false if the segment certainly touches nothing.
 template <class Wide, class Scalar>
-[[gnu::always_inline]] inline bool set_probe(const Frame& frame, const double* from, const double* to, bool front_only, bool back_only,
-                                             Probe<Scalar>& probe) {
+[[gnu::always_inline]] inline bool set_probe(const Frame& frame, const double* from, const double* to, bool front_only,
+                                             bool back_only, Probe<Scalar>& probe) {
     constexpr bool k_double = sizeof(Scalar) == sizeof(double);
     const auto most = [](const Four& x) __attribute__((always_inline)) {
         const double y = x[0] > x[1] ? x[0] : x[1];
         return y > x[2] ? y : x[2];
     };
-    const auto store = [](auto* to_, const auto& x) __attribute__((always_inline)) { __builtin_memcpy(to_, &x, sizeof x); };
+    const auto store = [](auto* to_, const auto& x) __attribute__((always_inline)) {
+        __builtin_memcpy(to_, &x, sizeof x);
+    };
     const FourWords sign = {INT64_MIN, INT64_MIN, INT64_MIN, INT64_MIN};
-    const auto size_of = [&](const Four& y) __attribute__((always_inline)) { return reinterpret_cast<Four>(reinterpret_cast<FourWords>(y) & ~sign); };
+    const auto size_of = [&](const Four& y) __attribute__((always_inline)) {
+        return reinterpret_cast<Four>(reinterpret_cast<FourWords>(y) & ~sign);
+    };
     // Number by number: who has just written two of them as single numbers would wait for a load of both.
     const auto load = [](const double* y) __attribute__((always_inline)) {
         const auto* each = static_cast<const volatile double*>(y);
@@ -146,7 +159,9 @@ template <class Wide, class Scalar>
     const Four size = size_of(d);
     const auto tiny = size < 0x1p-60;
     const Four least = {0x1p-60, 0x1p-60, 0x1p-60, 0x1p-60};
-    const Four way = reinterpret_cast<Four>((reinterpret_cast<FourWords>(d) & sign) | (tiny & reinterpret_cast<FourWords>(least)) | (~tiny & reinterpret_cast<FourWords>(size)));
+    const Four way =
+        reinterpret_cast<Four>((reinterpret_cast<FourWords>(d) & sign) | (tiny & reinterpret_cast<FourWords>(least)) |
+                               (~tiny & reinterpret_cast<FourWords>(size)));
     const Four inverse = 1 / way;
     const Four per_noise = size_of(inverse);
     const Four center = -x * inverse;
@@ -161,13 +176,16 @@ template <class Wide, class Scalar>
 
     const double scale = k_double ? frame.unit : 1;
     const Four length = k_double ? d : moved;
-    if constexpr (k_double) store(probe.corner_origin, start);
-    else store(probe.corner_origin, __builtin_convertvector(start, FourFloats));
+    if constexpr (k_double)
+        store(probe.corner_origin, start);
+    else
+        store(probe.corner_origin, __builtin_convertvector(start, FourFloats));
     store(probe.corner_direction, __builtin_convertvector(length, FourFloats));
     probe.scale = static_cast<Scalar>(scale);
     // Of the cluster test; derived there.
     constexpr double u = 0x1p-24;
-    const double unit = scale / frame.unit;  // of the cluster test's lengths in scene units: 1, or that of the caller's coordinates
+    const double unit =
+        scale / frame.unit;  // of the cluster test's lengths in scene units: 1, or that of the caller's coordinates
     const double reach = most(size_of(length));
     double g = noise * unit * (1 + 0x1p-20);
     if (clipped) [[unlikely]]  // the origin was moved and rounded

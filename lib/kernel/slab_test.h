@@ -1,13 +1,18 @@
 // Which children of a node does a segment touch, and from which parameter on? Sixteen at a time.
 //
-// On the scene's lattice a slab's side is at t = (bound * step - x) / d = near + bound * pace, and the children that the segment touches within the
+// On the scene's lattice a slab's side is at t = (bound * step - x) / d = near + bound * pace, and the children that
+// the segment touches within the
 // probe's noise have entry <= exit when each near side is taken earlier by e and each far side later by e.
-// Rounding, for v = 2^-24, x below k_far = 8 and bounds below 2^16 steps, 2 scene units: pace is within v of itself, and so is the product with a bound:
-//   2v * 2 / |d|; near is within v * 9 / |d|; the sum within v * 11 / |d|: 24v / |d| < 2^-19 / |d|, which is part of e (set_probe.h), beside noise / |d|.
+// Rounding, for v = 2^-24, x below k_far = 8 and bounds below 2^16 steps, 2 scene units: pace is within v of itself,
+// and so is the product with a bound:
+//   2v * 2 / |d|; near is within v * 9 / |d|; the sum within v * 11 / |d|: 24v / |d| < 2^-19 / |d|, which is part of e
+//   (set_probe.h), beside noise / |d|.
 // A fused operation rounds less often.
 //
-// In a coarse node's own frame t = (origin - x) / d + bound * step / d. The difference of doubles rounds once more, to float, in proportion to itself;
-// c being its size and 255 step the largest bound: 4v (c + 255 step) / |d| in all, 2^-20 (c + 255 step) / |d| are allowed.
+// In a coarse node's own frame t = (origin - x) / d + bound * step / d. The difference of doubles rounds once more, to
+// float, in proportion to itself;
+// c being its size and 255 step the largest bound: 4v (c + 255 step) / |d| in all, 2^-20 (c + 255 step) / |d| are
+// allowed.
 // NaN: entry <= exit is false; but no probe has any.
 #pragma once
 
@@ -59,8 +64,9 @@ template <class Wide, class Read>
         const auto at = [&](unsigned row, unsigned k, Float offset) {
             return Wide::multiply_add(read(row, g), ray.pace[k], offset);
         };
-        const Float entry = Wide::max(Wide::max(at(ray.near_row[0], 0, ray.near[0]), at(ray.near_row[1], 1, ray.near[1])),
-                                      Wide::max(at(ray.near_row[2], 2, ray.near[2]), first));
+        const Float entry =
+            Wide::max(Wide::max(at(ray.near_row[0], 0, ray.near[0]), at(ray.near_row[1], 1, ray.near[1])),
+                      Wide::max(at(ray.near_row[2], 2, ray.near[2]), first));
         const Float exit = Wide::min(Wide::min(at(ray.far_row[0], 0, ray.far[0]), at(ray.far_row[1], 1, ray.far[1])),
                                      Wide::min(at(ray.far_row[2], 2, ray.far[2]), limit));
         out.entry.part[g] = entry;
@@ -78,9 +84,12 @@ template <class Wide, class Scalar>
 // From which distance on, in sizes of a coarse node, its own base is taken: the bound above is then a 64th of its size.
 constexpr float k_far_node = 0x1p14F;
 
-/// A coarse node so far away that floats would not tell its children apart: all parameters are taken relative to `base`, about where
-/// the segment comes to the node, computed in double. With center = (origin - x) / d, within 2^-51 of itself, a slab's side is at
-/// (center - base) + bound * pace; 2^-22 (|center - base| + 255 |pace|) is more than the roundings of that to float and of the sum.
+/// A coarse node so far away that floats would not tell its children apart: all parameters are taken relative to
+/// `base`, about where
+/// the segment comes to the node, computed in double. With center = (origin - x) / d, within 2^-51 of itself, a slab's
+/// side is at
+/// (center - base) + bound * pace; 2^-22 (|center - base| + 255 |pace|) is more than the roundings of that to float and
+/// of the sum.
 template <class Wide, class Scalar>
 [[gnu::noinline]] Touched<Wide> slab_test_far(const CoarseNode& node, const Probe<Scalar>& probe, float limit) {
     double center[3];
@@ -115,8 +124,8 @@ template <class Wide, class Scalar>
 }
 
 template <class Wide, class Scalar>
-[[gnu::always_inline]] inline void slab_test(const CoarseNode& node, const Probe<Scalar>& probe, const Ray<Wide>& ray, float limit,
-                                             Touched<Wide>& out) {
+[[gnu::always_inline]] inline void slab_test(const CoarseNode& node, const Probe<Scalar>& probe, const Ray<Wide>& ray,
+                                             float limit, Touched<Wide>& out) {
     Ray<Wide> own = ray;
     float furthest = 0;
     float largest = 0;
@@ -147,7 +156,8 @@ template <class Wide>
     return bits;
 }
 
-// Keys: the bits of an entry, which are in the order of the entries as none is negative, with the child's place in the lowest four. k_no_key is
+// Keys: the bits of an entry, which are in the order of the entries as none is negative, with the child's place in the
+// lowest four. k_no_key is
 // that of a child that is not touched or was taken already.
 constexpr std::uint32_t k_no_key = 0x7f800000U;
 

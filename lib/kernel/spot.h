@@ -1,4 +1,5 @@
-// Where a hit lies and how its plane lies there, each number with a bound for its error: what the place of a hit is chosen from.
+// Where a hit lies and how its plane lies there, each number with a bound for its error: what the place of a hit is
+// chosen from.
 #pragma once
 
 #include <cmath>
@@ -8,7 +9,8 @@
 
 namespace pierce::detail {
 
-/// `high + low` is within `error` of the true point, `normal` (towards the front) within `normal_error` of a multiple of the true one.
+/// `high + low` is within `error` of the true point, `normal` (towards the front) within `normal_error` of a multiple
+/// of the true one.
 struct Spot {
     Point high;
     Point low;
@@ -19,7 +21,8 @@ struct Spot {
     double distance;  ///< of the start from the plane, at least but for a rounding, in units of |normal|
 };
 
-/// The true point rounded correctly, if that is certain: both ends of the interval around it round to one number, and rounding is monotone. (The
+/// The true point rounded correctly, if that is certain: both ends of the interval around it round to one number, and
+/// rounding is monotone. (The
 /// interval is widened by what its own sums lose.)
 template <class Scalar>
 [[nodiscard]] bool round_position(const Spot& spot, Point& position) {
@@ -28,7 +31,8 @@ template <class Scalar>
         double high = low;
         if (spot.error[k] > 0 || spot.low[k] != 0) {
             double slack = spot.error[k] * (1 + 0x1p-20) + std::abs(spot.low[k]) * 0x1p-50 + 0x1p-1073;
-            if (sizeof(Scalar) == 4) slack += std::abs(low) * 0x1p-51;  // for the sum, rounded to double before it is to float
+            if (sizeof(Scalar) == 4)
+                slack += std::abs(low) * 0x1p-51;  // for the sum, rounded to double before it is to float
             low += spot.low[k] - slack;
             high += spot.low[k] + slack;
         }

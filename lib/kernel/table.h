@@ -13,13 +13,17 @@ namespace {
 /// `Flights`: what queries in flight enter nodes with.
 template <class Wide, class Flights, class Scalar>
 struct KernelsOf {
-    static bool make(const Frame& frame, const double* from, const double* to, bool front_only, bool back_only, Probe<Scalar>& probe) {
+    static bool make(const Frame& frame, const double* from, const double* to, bool front_only, bool back_only,
+                     Probe<Scalar>& probe) {
         return set_probe<Wide>(frame, from, to, front_only, back_only, probe);
     }
-    static void walk(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit, void* self) {
+    static void walk(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit,
+                     void* self) {
         traverse<Wide>(tree, records, probe, limit, visit, self);
     }
-    static void go(const TreeView& tree, const Scalar* records, const Flight<Scalar>& flight) { fly<Flights, Wide>(tree, records, flight); }
+    static void go(const TreeView& tree, const Scalar* records, const Flight<Scalar>& flight) {
+        fly<Flights, Wide>(tree, records, flight);
+    }
     static unsigned test(const Probe<Scalar>& probe, const Scalar* records, ClusterRef cluster, float limit) {
         return test_cluster<Wide>(probe, records, cluster, limit);
     }

@@ -1,7 +1,9 @@
 // One segment's way through the tree, nearest clusters first.
 //
-// The children of a node that are touched go on the stack as one group of keys; the nearest is taken, and the next when the group comes up again. Most
-// nodes have one such child: then nothing is pushed. A group whose nearest is beyond the limit goes as a whole: the others are further
+// The children of a node that are touched go on the stack as one group of keys; the nearest is taken, and the next when
+// the group comes up again. Most
+// nodes have one such child: then nothing is pushed. A group whose nearest is beyond the limit goes as a whole: the
+// others are further
 // (Ylitie, Karras and Laine 2017 keep groups of children on the stack as well, in octant order).
 #pragma once
 
@@ -10,27 +12,31 @@
 
 namespace pierce::detail {
 
-/// Asks memory for what a child refers to. Without a branch on what it is, which would be mispredicted half of the time, so where
+/// Asks memory for what a child refers to. Without a branch on what it is, which would be mispredicted half of the
+/// time, so where
 /// compilers make one of it the move is written out.
 template <class Wide, class Scalar>
 [[gnu::always_inline]] inline void ask_memory(const void* nodes, const Scalar* records, std::uint32_t child) {
     const char* at = static_cast<const char*>(nodes) + (std::size_t{child} << 8);
     const char* record = reinterpret_cast<const char*>(records + k_row_count * first_of(child));
 #if defined(__x86_64__)
-    asm volatile("test %1, %1\n\tcmovs %2, %0\n\tprefetcht0 (%0)\n\tprefetcht0 64(%0)\n\tprefetcht0 128(%0)\n\tprefetcht0 192(%0)"
-                 : "+r"(at)
-                 : "r"(child), "r"(record)
-                 : "cc");
+    asm volatile(
+        "test %1, %1\n\tcmovs %2, %0\n\tprefetcht0 (%0)\n\tprefetcht0 64(%0)\n\tprefetcht0 128(%0)\n\tprefetcht0 "
+        "192(%0)"
+        : "+r"(at)
+        : "r"(child), "r"(record)
+        : "cc");
 #else
     if ((child & k_leaf_bit) != 0) at = record;
     for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
 #endif
 }
 
-/// Visits the clusters of which the segment may hit a triangle at a parameter up to `limit`, which becomes what `visit` returns.
+/// Visits the clusters of which the segment may hit a triangle at a parameter up to `limit`, which becomes what `visit`
+/// returns.
 template <class Wide, class AnyNode, class Scalar>
-[[gnu::always_inline]] inline void traverse_nodes(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit,
-                                                  void* self) {
+[[gnu::always_inline]] inline void traverse_nodes(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe,
+                                                  float limit, Visit visit, void* self) {
     struct Group {
         Sixteen<Wide> keys;
         const AnyNode* node;
@@ -97,8 +103,10 @@ template <class Wide, class AnyNode, class Scalar>
 
 template <class Wide, class Scalar>
 void traverse(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit, void* self) {
-    if (tree.coarse) traverse_nodes<Wide, CoarseNode>(tree, records, probe, limit, visit, self);
-    else traverse_nodes<Wide, Node>(tree, records, probe, limit, visit, self);
+    if (tree.coarse)
+        traverse_nodes<Wide, CoarseNode>(tree, records, probe, limit, visit, self);
+    else
+        traverse_nodes<Wide, Node>(tree, records, probe, limit, visit, self);
 }
 
 }  // namespace pierce::detail

@@ -18,7 +18,8 @@ template <class Number>
 }
 /// The same with all signs made +.
 template <class Number>
-[[nodiscard]] [[gnu::always_inline]] inline Triple<Number> cross_of_magnitudes(const Triple<Number>& p, const Triple<Number>& q) {
+[[nodiscard]] [[gnu::always_inline]] inline Triple<Number> cross_of_magnitudes(const Triple<Number>& p,
+                                                                               const Triple<Number>& q) {
     return {p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x};
 }
 

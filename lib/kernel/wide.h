@@ -1,5 +1,7 @@
-// Several numbers in step, for the formulas of include/pierce/kernels: one operation for all lanes, each rounded as a scalar one. Made of the
-// vector types of GCC and Clang, so that it says nothing of an instruction set: the flags of the file that includes it do.
+// Several numbers in step, for the formulas of include/pierce/kernels: one operation for all lanes, each rounded as a
+// scalar one. Made of the
+// vector types of GCC and Clang, so that it says nothing of an instruction set: the flags of the file that includes it
+// do.
 #pragma once
 
 #include <array>
@@ -26,7 +28,8 @@ struct WideMask {
     [[nodiscard]] bool operator[](std::size_t lane) const { return bits[lane] != 0; }
 
     friend bool none(const WideMask& mask) {
-        using Word = std::conditional_t<Lanes != 0, std::int64_t, Integer>;  // GCC takes the attribute on a dependent type only
+        using Word =
+            std::conditional_t<Lanes != 0, std::int64_t, Integer>;  // GCC takes the attribute on a dependent type only
         typedef Word Words __attribute__((vector_size(sizeof(Vector))));
         const Words words = reinterpret_cast<Words>(mask.bits);
         std::int64_t any = 0;
@@ -47,7 +50,7 @@ struct Wide {
     explicit Wide(const Vector& v) : values(v) {}
     /// The same in all lanes.
     template <class Value>
-        requires std::is_arithmetic_v<Value>
+    requires std::is_arithmetic_v<Value>
     explicit Wide(Value value) : values(Vector{} + static_cast<Scalar>(value)) {}
 
     [[nodiscard]] Scalar operator[](std::size_t lane) const { return values[lane]; }
@@ -64,7 +67,9 @@ struct Wide {
     friend Truth operator>=(const Wide& x, const Wide& y) { return {x.values >= y.values}; }
     friend Truth operator==(const Wide& x, const Wide& y) { return {x.values == y.values}; }
 
-    friend Wide select(const Truth& mask, const Wide& yes, const Wide& no) { return Wide(mask.bits ? yes.values : no.values); }
+    friend Wide select(const Truth& mask, const Wide& yes, const Wide& no) {
+        return Wide(mask.bits ? yes.values : no.values);
+    }
 
     friend Wide sqrt(const Wide& x) {
         Wide root;
@@ -80,8 +85,10 @@ struct Wide {
     }
 };
 
-/// Several stored forms side by side: what stands at one place in each of them becomes the lanes of one number. `Narrow` and `Broad` are a
-/// kernel's stored form, or a `Triple`, over Scalar and over Wide<Scalar, Lanes>: the same numbers in the same order, a column last.
+/// Several stored forms side by side: what stands at one place in each of them becomes the lanes of one number.
+/// `Narrow` and `Broad` are a
+/// kernel's stored form, or a `Triple`, over Scalar and over Wide<Scalar, Lanes>: the same numbers in the same order, a
+/// column last.
 template <class Broad, class Narrow, class Scalar, std::size_t Lanes>
 [[nodiscard]] Broad side_by_side(const std::array<Narrow, Lanes>& forms) {
     using Number = Wide<Scalar, Lanes>;
@@ -99,7 +106,8 @@ template <class Broad, class Narrow, class Scalar, std::size_t Lanes>
         std::memcpy(numbers + i * sizeof(Number), &number, sizeof(Number));
     }
     if constexpr (has_column)
-        for (std::size_t lane = 0; lane < Lanes; ++lane) broad.column.set(lane, static_cast<Scalar>(forms[lane].column));
+        for (std::size_t lane = 0; lane < Lanes; ++lane)
+            broad.column.set(lane, static_cast<Scalar>(forms[lane].column));
     return broad;
 }
 

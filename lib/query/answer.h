@@ -10,7 +10,8 @@
 
 namespace pierce::detail {
 
-/// Whether start and end of a way are certainly on one side of a triangle's plane, strictly: it is not hit. `measured` is of a path with that start.
+/// Whether start and end of a way are certainly on one side of a triangle's plane, strictly: it is not hit. `measured`
+/// is of a path with that start.
 [[nodiscard]] inline bool stays_on_one_side(const Measured& measured, const Point& end) {
     constexpr double u = Arithmetic<double>::unit;
     const Triple<Pair>& nr = measured.meeting.nr;
@@ -18,7 +19,8 @@ namespace pierce::detail {
     const Triple<double> o = {end[0] - a.x[0], end[1] - a.y[0], end[2] - a.z[0]};
     // As v in meeting.h.
     const double there = nr.x[0] * o.x + nr.y[0] * o.y + nr.z[0] * o.z;
-    const double bar = measured.bar_nr.x[0] * std::abs(o.x) + measured.bar_nr.y[0] * std::abs(o.y) + measured.bar_nr.z[0] * std::abs(o.z);
+    const double bar = measured.bar_nr.x[0] * std::abs(o.x) + measured.bar_nr.y[0] * std::abs(o.y) +
+                       measured.bar_nr.z[0] * std::abs(o.z);
     const double v = measured.v();
     const double ev = 9 * u * measured.bar_vc[0];
     return measured.tame && ((v < -ev && there > 9 * u * bar) || (v > ev && there < -9 * u * bar));
@@ -56,8 +58,7 @@ struct OtherWays {
         const Path way{path.from, point};
         FirstOther<Scalar, Passed> first(scene, way, counters, passed, own);
         if (list != nullptr && list->complete) {
-            for (unsigned i = 0; i < list->count; ++i)
-                test(way, i, first);
+            for (unsigned i = 0; i < list->count; ++i) test(way, i, first);
         } else {
             traverse<Kernel>(scene, way, options, 1, counters, first);
         }
@@ -80,8 +81,9 @@ struct OtherWays {
 /// wait for memory. `passed(triangle)` says which triangles are hit strictly before it, and so on the way to any point
 /// near it. With a complete list of the query's triangles nothing else is asked again.
 template <class Kernel, class Scalar, class Passed, class List>
-void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Measured& measured, const Passed& passed,
-            const QueryOptions& options, QueryCounters& counters, const List* list, Hit<Scalar>& hit) {
+void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Measured& measured,
+            const Passed& passed, const QueryOptions& options, QueryCounters& counters, const List* list,
+            Hit<Scalar>& hit) {
     const TriangleRef triangle = candidate.triangle;
     const Corners corners = corners_of(measured);
     typename Kernel::template Face<Scalar> face(path, measured, candidate.decision, *scene.backend->refine, counters);
@@ -90,7 +92,8 @@ void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candi
     report(measures, face.normal(), candidate.decision, scene.face_of_number(number), number, hit);
     // A limit that is nearer was meant for the caller's own segment: of ways it is 1.
     const OtherWays<Kernel, Scalar, Passed, List> ways{scene, path, triangle, passed, options, counters, list};
-    const int tries = place<Scalar>(path, corners, candidate.decision, scene.grain, measures.fraction, face, counters, ways, hit);
+    const int tries =
+        place<Scalar>(path, corners, candidate.decision, scene.grain, measures.fraction, face, counters, ways, hit);
     counters.retreats += static_cast<std::uint64_t>(tries);
 }
 
@@ -99,13 +102,14 @@ void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candi
 inline constexpr const Shortlist<0>* k_no_list = nullptr;
 
 template <class Kernel, class Scalar>
-[[nodiscard]] std::optional<Hit<Scalar>> first_answer(const Scene<Scalar>& scene, const Path& path, const QueryOptions& options,
-                                                      QueryCounters& counters) {
+[[nodiscard]] std::optional<Hit<Scalar>> first_answer(const Scene<Scalar>& scene, const Path& path,
+                                                      const QueryOptions& options, QueryCounters& counters) {
     std::optional<Hit<Scalar>> hit;
     First<Scalar> first(scene, path, counters);
     traverse<Kernel>(scene, path, options, counters, first);
     if (first.found())
-        answer<Kernel>(scene, path, first.best(), first.best_measured(), none_passed, options, counters, &first.list(), hit.emplace());
+        answer<Kernel>(scene, path, first.best(), first.best_measured(), none_passed, options, counters, &first.list(),
+                       hit.emplace());
     return hit;
 }
 

@@ -25,7 +25,8 @@ template <class Scalar>
 
 /// Makes a segment ready, and of `limit` a parameter of the probe. False: nothing is hit up to there.
 template <class Scalar>
-[[nodiscard]] bool make_probe(const Scene<Scalar>& scene, const Path& path, Sides sides, double limit, Probe<Scalar>& probe, float& up_to) {
+[[nodiscard]] bool make_probe(const Scene<Scalar>& scene, const Path& path, Sides sides, double limit,
+                              Probe<Scalar>& probe, float& up_to) {
     const ScalarKernels<Scalar>& kernels = scene.backend->template of<Scalar>();
     const bool front_only = sides == Sides::front;
     const bool back_only = sides == Sides::back;
@@ -34,18 +35,21 @@ template <class Scalar>
     return up_to >= 0;
 }
 
-/// Calls `use(cluster, lanes)`, as in each_candidate, for a cluster of which `lanes` are left. Returns the parameter up to which
+/// Calls `use(cluster, lanes)`, as in each_candidate, for a cluster of which `lanes` are left. Returns the parameter up
+/// to which
 /// hits are of use, `limit` before; negative: none is any more.
 template <class Scalar, class Use>
-[[nodiscard]] float use_cluster(const Scene<Scalar>& scene, const Probe<Scalar>& probe, ClusterRef cluster, unsigned lanes, float limit,
-                                QueryCounters& counters, Use&& use) {
+[[nodiscard]] float use_cluster(const Scene<Scalar>& scene, const Probe<Scalar>& probe, ClusterRef cluster,
+                                unsigned lanes, float limit, QueryCounters& counters, Use&& use) {
     // An empty place of a node is visited where the noise is larger than the scene.
-    if (cluster == scene.clusters.empty) [[unlikely]] return limit;
+    if (cluster == scene.clusters.empty) [[unlikely]]
+        return limit;
     for (unsigned left = lanes; left != 0; left &= left - 1) ++counters.triangles;
     return parameter(probe, use(cluster, lanes));
 }
 
-/// Does with the grid what `kernels.traverse` does with the tree. A limit is a float all the way: what the grid hands on
+/// Does with the grid what `kernels.traverse` does with the tree. A limit is a float all the way: what the grid hands
+/// on
 /// is the last one that it got, or 1.
 template <class Scalar>
 void traverse_grid(const Scene<Scalar>& scene, const ScalarKernels<Scalar>& kernels, Probe<Scalar>& probe,
@@ -87,8 +91,10 @@ void each_candidate(const Scene<Scalar>& scene, const Path& path, Sides sides, d
         return c.limit = use_cluster(c.scene, c.probe, cluster, lanes, c.limit, c.counters, c.use);
     };
     const ScalarKernels<Scalar>& kernels = scene.backend->template of<Scalar>();
-    if (scene.broadphase == Broadphase::grid) traverse_grid(scene, kernels, probe, first_limit, visit, &context);
-    else kernels.traverse(scene.tree.view(), scene.clusters.records.data(), probe, first_limit, visit, &context);
+    if (scene.broadphase == Broadphase::grid)
+        traverse_grid(scene, kernels, probe, first_limit, visit, &context);
+    else
+        kernels.traverse(scene.tree.view(), scene.clusters.records.data(), probe, first_limit, visit, &context);
     counters.nodes += probe.nodes;
     counters.clusters += probe.clusters;
 }

@@ -19,13 +19,14 @@ struct Candidate {
 /// Whether x comes before y: by the exact fraction, then the caller's face number, then the triangle.
 template <class Scalar>
 [[nodiscard]] bool comes_before(const Scene<Scalar>& scene, const Path& path, const Candidate& x, const Candidate& y,
-                                       QueryCounters& counters) {
+                                QueryCounters& counters) {
     if (x.latest < y.earliest) return true;
     if (y.latest < x.earliest || x.triangle == y.triangle) return false;
     const Corners of_x = scene.corners(x.triangle);
     const Corners of_y = scene.corners(y.triangle);
     int order = 0;
-    if (of_x != of_y && !same_place(of_x, x.decision, of_y, y.decision) && !in_one_axis_plane(of_x, of_y)) {  // duplicates are common in what people model
+    if (of_x != of_y && !same_place(of_x, x.decision, of_y, y.decision) &&
+        !in_one_axis_plane(of_x, of_y)) {  // duplicates are common in what people model
         ++counters.exact_orders;
         order = compare_fractions(path, of_x, of_y);
     }

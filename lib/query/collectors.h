@@ -10,16 +10,20 @@
 
 namespace pierce::detail {
 
-/// The triangles that the wide kernels left; if `complete`, all that could stop a point on a way within `Scene::near_bound`
-/// of the path, so that the verified point needs no second traversal. Of the first `k_measured` it keeps the volumes, and of the
+/// The triangles that the wide kernels left; if `complete`, all that could stop a point on a way within
+/// `Scene::near_bound`
+/// of the path, so that the verified point needs no second traversal. Of the first `k_measured` it keeps the volumes,
+/// and of the
 /// best candidate, wherever it comes.
 template <unsigned most_measured>
 struct Shortlist {
     static constexpr unsigned k_measured = most_measured;
 
     void add(TriangleRef triangle) {
-        if (count == triangles.size()) complete = false;
-        else triangles[count++] = triangle;
+        if (count == triangles.size())
+            complete = false;
+        else
+            triangles[count++] = triangle;
     }
 
     std::array<TriangleRef, 64> triangles;
@@ -70,7 +74,8 @@ class First {
 template <class Scalar, class Passed>
 class FirstOther : public First<Scalar> {
   public:
-    FirstOther(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters, const Passed& passed, TriangleRef own)
+    FirstOther(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters, const Passed& passed,
+               TriangleRef own)
         : First<Scalar>(scene, path, counters), passed_(passed), own_(own) {}
 
     [[nodiscard]] bool wants(TriangleRef triangle) const { return triangle != own_; }
@@ -141,7 +146,10 @@ class All {
         const double slack = fraction * static_cast<double>(std::numeric_limits<Scalar>::epsilon()) * 2 +
                              static_cast<double>(std::numeric_limits<Scalar>::denorm_min()) * 4;
         return {{hit.triangle, hit.face},
-                {.hit = true, .side = hit.side, .feature = hit.feature, .feature_index = hit.feature_index,
+                {.hit = true,
+                 .side = hit.side,
+                 .feature = hit.feature,
+                 .feature_index = hit.feature_index,
                  .at_start = hit.at_start},
                 fraction - slack,
                 fraction + slack};

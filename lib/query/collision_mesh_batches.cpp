@@ -15,7 +15,9 @@ namespace {
 constexpr std::size_t k_part = 1024;
 
 void add(QueryCounters& to, const QueryCounters& from) {
-    const auto atomic_add = [](std::uint64_t& x, std::uint64_t y) { std::atomic_ref(x).fetch_add(y, std::memory_order_relaxed); };
+    const auto atomic_add = [](std::uint64_t& x, std::uint64_t y) {
+        std::atomic_ref(x).fetch_add(y, std::memory_order_relaxed);
+    };
     atomic_add(to.queries, from.queries);
     atomic_add(to.nodes, from.nodes);
     atomic_add(to.clusters, from.clusters);
@@ -29,7 +31,8 @@ void add(QueryCounters& to, const QueryCounters& from) {
 
 /// Calls `part(first, last, counters, invalid)`, which returns its number of hits, for all parts of `count` queries.
 template <class Part>
-std::size_t in_parts(std::size_t count, const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries, Part&& part) {
+std::size_t in_parts(std::size_t count, const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries,
+                     Part&& part) {
     std::atomic<std::size_t> hits = 0;
     options.executor((count + k_part - 1) / k_part, [&](std::size_t i) {
         const std::size_t first = i * k_part;
@@ -55,7 +58,8 @@ bool asks_nothing(const QueryOptions& options) {
 
 /// What single calls count before they find that nothing is asked.
 template <class Scalar>
-void count_only(const Ends<Scalar>& ends, std::size_t count, const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries) {
+void count_only(const Ends<Scalar>& ends, std::size_t count, const BatchOptions& options,
+                std::atomic<std::uint64_t>& invalid_queries) {
     const StandardArithmetic standard;
     std::uint64_t invalid = 0;
     for (std::size_t i = 0; i < count; ++i)
@@ -66,8 +70,8 @@ void count_only(const Ends<Scalar>& ends, std::size_t count, const BatchOptions&
 
 void check_sizes(std::size_t from, std::size_t to, std::size_t out) {
     if (from != to || from != out)
-        throw std::invalid_argument("a batch of " + std::to_string(from) + " starts, " + std::to_string(to) + " ends and " +
-                                    std::to_string(out) + " answers: they must be as many");
+        throw std::invalid_argument("a batch of " + std::to_string(from) + " starts, " + std::to_string(to) +
+                                    " ends and " + std::to_string(out) + " answers: they must be as many");
 }
 
 template <class Scalar, class Answer>
@@ -85,8 +89,8 @@ std::size_t all_first(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std:
 }
 
 template <class Scalar>
-std::size_t all_any(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::span<std::uint8_t> out, const BatchOptions& options,
-                    std::atomic<std::uint64_t>& invalid_queries) {
+std::size_t all_any(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::span<std::uint8_t> out,
+                    const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries) {
     if (asks_nothing(options)) {
         std::fill(out.begin(), out.end(), std::uint8_t{0});
         count_only(ends, out.size(), options, invalid_queries);
@@ -115,7 +119,8 @@ std::size_t columns(const auto& points) { return static_cast<std::size_t>(points
 }  // namespace
 
 template <class Scalar>
-std::size_t CollisionMesh<Scalar>::first_hits(std::span<const Segment<Scalar>> segments, std::span<std::optional<Hit<Scalar>>> out,
+std::size_t CollisionMesh<Scalar>::first_hits(std::span<const Segment<Scalar>> segments,
+                                              std::span<std::optional<Hit<Scalar>>> out,
                                               const BatchOptions& options) const {
     check_sizes(segments.size(), segments.size(), out.size());
     return all_first(impl_->scene, ends_of(segments), out, options, impl_->invalid_queries);
@@ -130,52 +135,68 @@ std::size_t CollisionMesh<Scalar>::any_hits(std::span<const Segment<Scalar>> seg
 
 template <class Scalar>
 std::size_t CollisionMesh<Scalar>::sweep_points(std::span<const Vec3<Scalar>> from, std::span<const Vec3<Scalar>> to,
-                                                std::span<std::optional<SweepHit<Scalar>>> out, const BatchOptions& options) const {
+                                                std::span<std::optional<SweepHit<Scalar>>> out,
+                                                const BatchOptions& options) const {
     check_sizes(from.size(), to.size(), out.size());
     static_assert(sizeof(Vec3<Scalar>) == 3 * sizeof(Scalar));
     if (out.empty()) return 0;
-    return all_first(impl_->scene, Ends<Scalar>{from[0].data(), to[0].data(), 3, 3}, out, options, impl_->invalid_queries);
+    return all_first(impl_->scene, Ends<Scalar>{from[0].data(), to[0].data(), 3, 3}, out, options,
+                     impl_->invalid_queries);
 }
 
 template <class Scalar>
 std::size_t CollisionMesh<Scalar>::first_hits(const Points<Scalar>& from, const Points<Scalar>& to,
-                                              std::span<std::optional<Hit<Scalar>>> out, const BatchOptions& options) const {
+                                              std::span<std::optional<Hit<Scalar>>> out,
+                                              const BatchOptions& options) const {
     check_sizes(columns(from), columns(to), out.size());
     return all_first(impl_->scene, ends_of<Scalar>(from, to), out, options, impl_->invalid_queries);
 }
 
 template <class Scalar>
-std::size_t CollisionMesh<Scalar>::any_hits(const Points<Scalar>& from, const Points<Scalar>& to, std::span<std::uint8_t> out,
-                                            const BatchOptions& options) const {
+std::size_t CollisionMesh<Scalar>::any_hits(const Points<Scalar>& from, const Points<Scalar>& to,
+                                            std::span<std::uint8_t> out, const BatchOptions& options) const {
     check_sizes(columns(from), columns(to), out.size());
     return all_any(impl_->scene, ends_of<Scalar>(from, to), out, options, impl_->invalid_queries);
 }
 
 template <class Scalar>
 std::size_t CollisionMesh<Scalar>::sweep_points(const Points<Scalar>& from, const Points<Scalar>& to,
-                                                std::span<std::optional<SweepHit<Scalar>>> out, const BatchOptions& options) const {
+                                                std::span<std::optional<SweepHit<Scalar>>> out,
+                                                const BatchOptions& options) const {
     check_sizes(columns(from), columns(to), out.size());
     return all_first(impl_->scene, ends_of<Scalar>(from, to), out, options, impl_->invalid_queries);
 }
 
-template std::size_t CollisionMesh<float>::first_hits(std::span<const Segment<float>>, std::span<std::optional<Hit<float>>>, const BatchOptions&) const;
-template std::size_t CollisionMesh<float>::any_hits(std::span<const Segment<float>>, std::span<std::uint8_t>, const BatchOptions&) const;
+template std::size_t CollisionMesh<float>::first_hits(std::span<const Segment<float>>,
+                                                      std::span<std::optional<Hit<float>>>, const BatchOptions&) const;
+template std::size_t CollisionMesh<float>::any_hits(std::span<const Segment<float>>, std::span<std::uint8_t>,
+                                                    const BatchOptions&) const;
 template std::size_t CollisionMesh<float>::sweep_points(std::span<const Vec3<float>>, std::span<const Vec3<float>>,
-        std::span<std::optional<SweepHit<float>>>, const BatchOptions&) const;
-template std::size_t CollisionMesh<float>::first_hits(const Points<float>&, const Points<float>&, std::span<std::optional<Hit<float>>>,
-        const BatchOptions&) const;
-template std::size_t CollisionMesh<float>::any_hits(const Points<float>&, const Points<float>&, std::span<std::uint8_t>, const BatchOptions&) const;
-template std::size_t CollisionMesh<float>::sweep_points(const Points<float>&, const Points<float>&, std::span<std::optional<SweepHit<float>>>,
-        const BatchOptions&) const;
+                                                        std::span<std::optional<SweepHit<float>>>,
+                                                        const BatchOptions&) const;
+template std::size_t CollisionMesh<float>::first_hits(const Points<float>&, const Points<float>&,
+                                                      std::span<std::optional<Hit<float>>>, const BatchOptions&) const;
+template std::size_t CollisionMesh<float>::any_hits(const Points<float>&, const Points<float>&, std::span<std::uint8_t>,
+                                                    const BatchOptions&) const;
+template std::size_t CollisionMesh<float>::sweep_points(const Points<float>&, const Points<float>&,
+                                                        std::span<std::optional<SweepHit<float>>>,
+                                                        const BatchOptions&) const;
 
-template std::size_t CollisionMesh<double>::first_hits(std::span<const Segment<double>>, std::span<std::optional<Hit<double>>>, const BatchOptions&) const;
-template std::size_t CollisionMesh<double>::any_hits(std::span<const Segment<double>>, std::span<std::uint8_t>, const BatchOptions&) const;
+template std::size_t CollisionMesh<double>::first_hits(std::span<const Segment<double>>,
+                                                       std::span<std::optional<Hit<double>>>,
+                                                       const BatchOptions&) const;
+template std::size_t CollisionMesh<double>::any_hits(std::span<const Segment<double>>, std::span<std::uint8_t>,
+                                                     const BatchOptions&) const;
 template std::size_t CollisionMesh<double>::sweep_points(std::span<const Vec3<double>>, std::span<const Vec3<double>>,
-        std::span<std::optional<SweepHit<double>>>, const BatchOptions&) const;
-template std::size_t CollisionMesh<double>::first_hits(const Points<double>&, const Points<double>&, std::span<std::optional<Hit<double>>>,
-        const BatchOptions&) const;
-template std::size_t CollisionMesh<double>::any_hits(const Points<double>&, const Points<double>&, std::span<std::uint8_t>, const BatchOptions&) const;
-template std::size_t CollisionMesh<double>::sweep_points(const Points<double>&, const Points<double>&, std::span<std::optional<SweepHit<double>>>,
-        const BatchOptions&) const;
+                                                         std::span<std::optional<SweepHit<double>>>,
+                                                         const BatchOptions&) const;
+template std::size_t CollisionMesh<double>::first_hits(const Points<double>&, const Points<double>&,
+                                                       std::span<std::optional<Hit<double>>>,
+                                                       const BatchOptions&) const;
+template std::size_t CollisionMesh<double>::any_hits(const Points<double>&, const Points<double>&,
+                                                     std::span<std::uint8_t>, const BatchOptions&) const;
+template std::size_t CollisionMesh<double>::sweep_points(const Points<double>&, const Points<double>&,
+                                                         std::span<std::optional<SweepHit<double>>>,
+                                                         const BatchOptions&) const;
 
 }  // namespace pierce

@@ -9,8 +9,8 @@
 namespace pierce::detail {
 
 template <class Scalar>
-std::optional<Hit<Scalar>> first_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
-                                     QueryCounters& counters) {
+std::optional<Hit<Scalar>> first_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
+                                     const QueryOptions& options, QueryCounters& counters) {
     return first_answer<Certified, Scalar>(scene, to_path(segment), options, counters);
 }
 
@@ -41,12 +41,15 @@ std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
             continue;
         }
         before = candidate.triangle;
-        // Hits that count and come strictly before. One that `accept` refuses on the way to `to` may count on the way to the point.
+        // Hits that count and come strictly before. One that `accept` refuses on the way to `to` may count on the way
+        // to the point.
         const auto passed = [&](TriangleRef triangle) {
             Candidate other;
             Measured measured;
             if (masked(scene, triangle, options)) return false;
-            if (!Certified::test<Scalar>(scene.corners(triangle), triangle, path, options.sides, 1, counters, measured, other)) return false;
+            if (!Certified::test<Scalar>(scene.corners(triangle), triangle, path, options.sides, 1, counters, measured,
+                                         other))
+                return false;
             if (options.accept && !accepted(scene, path, other, measured, options, counters)) return false;
             if (other.latest < candidate.earliest) return true;
             return other.earliest <= candidate.latest &&
@@ -83,9 +86,12 @@ int crossings_of(const Scene<Scalar>& scene, const Path& path, QueryCounters& co
     return sum;
 }
 
-/// The way out of the box that is shortest along an axis, tilted by some of its length along the two others: along an axis it
-/// would follow the edges that models have there, which only exact arithmetic can tell from crossings. It ends clearly outside: at the next
-/// number below 0 it would end among denormal numbers, and take the widest arithmetic. An end beyond the box along one axis has winding number 0,
+/// The way out of the box that is shortest along an axis, tilted by some of its length along the two others: along an
+/// axis it
+/// would follow the edges that models have there, which only exact arithmetic can tell from crossings. It ends clearly
+/// outside: at the next
+/// number below 0 it would end among denormal numbers, and take the widest arithmetic. An end beyond the box along one
+/// axis has winding number 0,
 /// wherever it is along the others.
 [[nodiscard]] Path way_out(const Point& point, const Box& box) {
     Path way{point, point};
@@ -122,19 +128,22 @@ template <class Scalar>
 int winding_number(const Scene<Scalar>& scene, const Vec3<Scalar>& at, QueryCounters& counters) {
     const Point point = to_point(at);
     if (scene.empty()) return 0;
-    // In the infinitesimal step's sense a point on the box's upper side is outside already, since the step goes up; below, it must lie beyond.
+    // In the infinitesimal step's sense a point on the box's upper side is outside already, since the step goes up;
+    // below, it must lie beyond.
     for (std::size_t k = 0; k < 3; ++k)
         if (point[k] >= scene.bounds.high[k] || point[k] < scene.bounds.low[k]) return 0;
     return -crossings_of(scene, way_out(point, scene.bounds), counters);
 }
 
-template std::optional<Hit<float>> first_hit(const Scene<float>&, const Segment<float>&, const QueryOptions&, QueryCounters&);
+template std::optional<Hit<float>> first_hit(const Scene<float>&, const Segment<float>&, const QueryOptions&,
+                                             QueryCounters&);
 template bool any_hit(const Scene<float>&, const Segment<float>&, const QueryOptions&, QueryCounters&);
 template std::size_t all_hits(const Scene<float>&, const Segment<float>&, std::span<Hit<float>>, const QueryOptions&,
                               QueryCounters&);
 template int crossings(const Scene<float>&, const Segment<float>&, QueryCounters&);
 template int winding_number(const Scene<float>&, const Vec3<float>&, QueryCounters&);
-template std::optional<Hit<double>> first_hit(const Scene<double>&, const Segment<double>&, const QueryOptions&, QueryCounters&);
+template std::optional<Hit<double>> first_hit(const Scene<double>&, const Segment<double>&, const QueryOptions&,
+                                              QueryCounters&);
 template bool any_hit(const Scene<double>&, const Segment<double>&, const QueryOptions&, QueryCounters&);
 template std::size_t all_hits(const Scene<double>&, const Segment<double>&, std::span<Hit<double>>, const QueryOptions&,
                               QueryCounters&);

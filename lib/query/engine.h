@@ -1,5 +1,6 @@
 // The queries themselves, behind a call that the compiler does not inline: the caller has made the arithmetic standard
-// (environment.h), in which even the conversion of a float to double matters, and has seen that every coordinate is finite and
+// (environment.h), in which even the conversion of a float to double matters, and has seen that every coordinate is
+// finite and
 // `max_fraction` is not NaN.
 #pragma once
 
@@ -35,23 +36,26 @@ struct Ends {
 template <class Scalar>
 [[nodiscard]] bool is_finite(const Ends<Scalar>& ends, std::size_t i) {
     const auto at = static_cast<std::ptrdiff_t>(i);
-    const auto finite = [](const Scalar* x) { return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]); };
+    const auto finite = [](const Scalar* x) {
+        return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+    };
     return finite(ends.from + at * ends.from_stride) && finite(ends.to + at * ends.to_stride);
 }
 
 /// Queries `first` to `last`. Those that are not finite count as `invalid`. Returns the number of hits.
 template <class Scalar, class Answer>
-[[gnu::noinline]] std::size_t first_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last,
-                                         std::optional<Answer>* out, const QueryOptions& options, QueryCounters& counters,
-                                         std::size_t& invalid);
+[[gnu::noinline]] std::size_t first_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first,
+                                         std::size_t last, std::optional<Answer>* out, const QueryOptions& options,
+                                         QueryCounters& counters, std::size_t& invalid);
 template <class Scalar>
-[[gnu::noinline]] std::size_t any_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last,
-                                       std::uint8_t* out, const QueryOptions& options, QueryCounters& counters,
-                                       std::size_t& invalid);
+[[gnu::noinline]] std::size_t any_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first,
+                                       std::size_t last, std::uint8_t* out, const QueryOptions& options,
+                                       QueryCounters& counters, std::size_t& invalid);
 
 template <class Scalar>
-[[gnu::noinline]] std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
-                                       const QueryOptions& options, QueryCounters& counters);
+[[gnu::noinline]] std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
+                                       std::span<Hit<Scalar>> out, const QueryOptions& options,
+                                       QueryCounters& counters);
 
 template <class Scalar>
 [[gnu::noinline]] int crossings(const Scene<Scalar>& scene, const Segment<Scalar>& segment, QueryCounters& counters);

@@ -12,18 +12,30 @@ namespace pierce {
 
 std::string_view to_string(Reason reason) {
     switch (reason) {
-        case Reason::first_hit: return "first hit";
-        case Reason::later: return "later than the first hit";
-        case Reason::apart: return "boxes apart";
-        case Reason::zero_area: return "zero area";
-        case Reason::masked: return "masked";
-        case Reason::in_plane: return "segment in its plane";
-        case Reason::in_front: return "stays in front";
-        case Reason::behind: return "stays behind";
-        case Reason::wrong_side: return "passes from the other side";
-        case Reason::outside_edge: return "passes outside an edge";
-        case Reason::too_far: return "beyond max_fraction";
-        case Reason::not_accepted: return "not accepted";
+        case Reason::first_hit:
+            return "first hit";
+        case Reason::later:
+            return "later than the first hit";
+        case Reason::apart:
+            return "boxes apart";
+        case Reason::zero_area:
+            return "zero area";
+        case Reason::masked:
+            return "masked";
+        case Reason::in_plane:
+            return "segment in its plane";
+        case Reason::in_front:
+            return "stays in front";
+        case Reason::behind:
+            return "stays behind";
+        case Reason::wrong_side:
+            return "passes from the other side";
+        case Reason::outside_edge:
+            return "passes outside an edge";
+        case Reason::too_far:
+            return "beyond max_fraction";
+        case Reason::not_accepted:
+            return "not accepted";
     }
     return "";
 }
@@ -34,7 +46,10 @@ namespace {
 
 // Why a triangle is not hit at all; `later` stands for one that is. The same signs as in decide(), in the same order.
 FaceVerdict refusal(const Corners& corners, FaceVerdict verdict, const Path& path, const QueryOptions& options) {
-    const auto masked = [&] { return !options.face_mask.empty() && (verdict.face >= options.face_mask.size() || options.face_mask[verdict.face] == 0); };
+    const auto masked = [&] {
+        return !options.face_mask.empty() &&
+               (verdict.face >= options.face_mask.size() || options.face_mask[verdict.face] == 0);
+    };
     if (has_zero_area(corners)) {
         verdict.reason = Reason::zero_area;
     } else if (!overlap(box_of(path), box_of(corners))) {
@@ -77,8 +92,8 @@ Box surroundings(Box box) {
 }  // namespace
 
 template <class Scalar>
-std::vector<FaceVerdict> explain(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
-                                 QueryCounters& counters) {
+std::vector<FaceVerdict> explain(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
+                                 const QueryOptions& options, QueryCounters& counters) {
     const Path path = to_path(segment);
     First<Scalar> first(scene, path, counters);
     traverse<Certified>(scene, path, options, counters, first);
@@ -87,7 +102,9 @@ std::vector<FaceVerdict> explain(const Scene<Scalar>& scene, const Segment<Scala
     // away than the segment is long, whichever broadphase there is.
     const Box near = surroundings(box_of(path));
     std::vector<FaceVerdict> verdicts;
-    const auto named = [&](std::uint32_t number) { return FaceVerdict{scene.face_of_number(number), number, Reason::later}; };
+    const auto named = [&](std::uint32_t number) {
+        return FaceVerdict{scene.face_of_number(number), number, Reason::later};
+    };
     scene.each_triangle([&](TriangleRef triangle) {
         const Corners corners = scene.corners(triangle);
         if (!overlap(near, box_of(corners))) return;
@@ -96,20 +113,26 @@ std::vector<FaceVerdict> explain(const Scene<Scalar>& scene, const Segment<Scala
             const Candidate candidate{triangle, decide(path, corners, options.sides)};
             Measured measured;
             measure_path<Scalar>(corners, path, measured);
-            if (!fraction_at_most(path, corners, options.max_fraction)) verdict.reason = Reason::too_far;
-            else if (options.accept && !accepted(scene, path, candidate, measured, options, counters)) verdict.reason = Reason::not_accepted;
-            else if (first.found() && triangle == first.best().triangle) verdict.reason = Reason::first_hit;
+            if (!fraction_at_most(path, corners, options.max_fraction))
+                verdict.reason = Reason::too_far;
+            else if (options.accept && !accepted(scene, path, candidate, measured, options, counters))
+                verdict.reason = Reason::not_accepted;
+            else if (first.found() && triangle == first.best().triangle)
+                verdict.reason = Reason::first_hit;
         }
         verdicts.push_back(verdict);
     });
     for (const auto& [number, corners] : scene.degenerate)
         if (overlap(near, box_of(corners))) verdicts.push_back(refusal(corners, named(number), path, options));
-    std::sort(verdicts.begin(), verdicts.end(), [](const FaceVerdict& x, const FaceVerdict& y) { return x.triangle < y.triangle; });
+    std::sort(verdicts.begin(), verdicts.end(),
+              [](const FaceVerdict& x, const FaceVerdict& y) { return x.triangle < y.triangle; });
     return verdicts;
 }
 
-template std::vector<FaceVerdict> explain(const Scene<float>&, const Segment<float>&, const QueryOptions&, QueryCounters&);
-template std::vector<FaceVerdict> explain(const Scene<double>&, const Segment<double>&, const QueryOptions&, QueryCounters&);
+template std::vector<FaceVerdict> explain(const Scene<float>&, const Segment<float>&, const QueryOptions&,
+                                          QueryCounters&);
+template std::vector<FaceVerdict> explain(const Scene<double>&, const Segment<double>&, const QueryOptions&,
+                                          QueryCounters&);
 
 }  // namespace detail
 

@@ -50,8 +50,8 @@ struct FirstQuery {
         if (!collector.found()) return;
         ++batch.hits;
         Answer& hit = out.emplace();
-        answer<Certified, Scalar>(batch.scene, path, collector.best(), collector.best_measured(), none_passed, batch.options,
-                                  batch.counters, &collector.list(), hit);
+        answer<Certified, Scalar>(batch.scene, path, collector.best(), collector.best_measured(), none_passed,
+                                  batch.options, batch.counters, &collector.list(), hit);
         if constexpr (std::is_same_v<Answer, SweepHit<Scalar>>) hit.time_of_impact = hit.fraction;
     }
 
@@ -95,11 +95,14 @@ class InFlight {
 
     void run() {
         const Scene<Scalar>& scene = batch_.scene;
-        const Flight<Scalar> flight{
-            this,
-            [](void* self, unsigned slot, Probe<Scalar>& probe, float& limit) { return static_cast<InFlight*>(self)->start(slot, probe, limit); },
-            [](void* self, unsigned slot, std::uint32_t cluster, unsigned lanes) { return static_cast<InFlight*>(self)->visit(slot, cluster, lanes); },
-            [](void* self, unsigned slot) { static_cast<InFlight*>(self)->finish(slot); }};
+        const Flight<Scalar> flight{this,
+                                    [](void* self, unsigned slot, Probe<Scalar>& probe, float& limit) {
+                                        return static_cast<InFlight*>(self)->start(slot, probe, limit);
+                                    },
+                                    [](void* self, unsigned slot, std::uint32_t cluster, unsigned lanes) {
+                                        return static_cast<InFlight*>(self)->visit(slot, cluster, lanes);
+                                    },
+                                    [](void* self, unsigned slot) { static_cast<InFlight*>(self)->finish(slot); }};
         scene.backend->template of<Scalar>().fly(scene.tree.view(), scene.clusters.records.data(), flight);
     }
 
@@ -118,7 +121,8 @@ class InFlight {
             Path path;
             out_[i] = {};
             if (!batch_.read_path(i, path)) continue;
-            if (!make_probe(batch_.scene, path, options.sides, std::min(1.0, options.max_fraction), probe, limit)) continue;
+            if (!make_probe(batch_.scene, path, options.sides, std::min(1.0, options.max_fraction), probe, limit))
+                continue;
             slot.query.emplace(batch_, path, out_[i]);
             slot.probe = &probe;
             slot.limit = limit;
@@ -130,10 +134,12 @@ class InFlight {
     float visit(unsigned at, std::uint32_t cluster, unsigned lanes) {
         Slot& slot = slots_[at];
         Query& query = *slot.query;
-        return slot.limit = use_cluster(batch_.scene, *slot.probe, cluster, lanes, slot.limit, batch_.counters, [&](ClusterRef which, unsigned bits) {
-            return test_cluster<Certified>(batch_.scene, query.path, which, bits, batch_.options, batch_.options.max_fraction,
-                                           batch_.counters, query.collector);
-        });
+        return slot.limit = use_cluster(batch_.scene, *slot.probe, cluster, lanes, slot.limit, batch_.counters,
+                                        [&](ClusterRef which, unsigned bits) {
+                                            return test_cluster<Certified>(batch_.scene, query.path, which, bits,
+                                                                           batch_.options, batch_.options.max_fraction,
+                                                                           batch_.counters, query.collector);
+                                        });
     }
 
     void finish(unsigned at) {
@@ -150,9 +156,12 @@ class InFlight {
 
 template <class Query, class Scalar>
 std::size_t run(Batch<Scalar> batch, typename Query::Out* out) {
-    const bool flies = !batch.scene.empty() && batch.scene.broadphase == Broadphase::tree && batch.scene.tree.depth <= k_flight_depth;
-    if (flies) InFlight<Query, Scalar>(batch, out).run();
-    else one_by_one<Query>(batch, out);
+    const bool flies =
+        !batch.scene.empty() && batch.scene.broadphase == Broadphase::tree && batch.scene.tree.depth <= k_flight_depth;
+    if (flies)
+        InFlight<Query, Scalar>(batch, out).run();
+    else
+        one_by_one<Query>(batch, out);
     return batch.hits;
 }
 
@@ -160,27 +169,28 @@ std::size_t run(Batch<Scalar> batch, typename Query::Out* out) {
 
 template <class Scalar, class Answer>
 std::size_t first_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last,
-                       std::optional<Answer>* out, const QueryOptions& options, QueryCounters& counters, std::size_t& invalid) {
+                       std::optional<Answer>* out, const QueryOptions& options, QueryCounters& counters,
+                       std::size_t& invalid) {
     return run<FirstQuery<Scalar, Answer>>(Batch<Scalar>{scene, ends, first, last, options, counters, invalid}, out);
 }
 
 template <class Scalar>
-std::size_t any_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last, std::uint8_t* out,
-                     const QueryOptions& options, QueryCounters& counters, std::size_t& invalid) {
+std::size_t any_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last,
+                     std::uint8_t* out, const QueryOptions& options, QueryCounters& counters, std::size_t& invalid) {
     return run<AnyQuery<Scalar>>(Batch<Scalar>{scene, ends, first, last, options, counters, invalid}, out);
 }
 
-#define PIERCE_BATCHES(Scalar, Answer)                                                                                               \
-    template std::size_t first_hits(const Scene<Scalar>&, const Ends<Scalar>&, std::size_t, std::size_t, std::optional<Answer>*,     \
-                                    const QueryOptions&, QueryCounters&, std::size_t&)
+#define PIERCE_BATCHES(Scalar, Answer)                                                                   \
+    template std::size_t first_hits(const Scene<Scalar>&, const Ends<Scalar>&, std::size_t, std::size_t, \
+                                    std::optional<Answer>*, const QueryOptions&, QueryCounters&, std::size_t&)
 PIERCE_BATCHES(float, Hit<float>);
 PIERCE_BATCHES(float, SweepHit<float>);
 PIERCE_BATCHES(double, Hit<double>);
 PIERCE_BATCHES(double, SweepHit<double>);
 #undef PIERCE_BATCHES
-template std::size_t any_hits(const Scene<float>&, const Ends<float>&, std::size_t, std::size_t, std::uint8_t*, const QueryOptions&,
-                              QueryCounters&, std::size_t&);
-template std::size_t any_hits(const Scene<double>&, const Ends<double>&, std::size_t, std::size_t, std::uint8_t*, const QueryOptions&,
-                              QueryCounters&, std::size_t&);
+template std::size_t any_hits(const Scene<float>&, const Ends<float>&, std::size_t, std::size_t, std::uint8_t*,
+                              const QueryOptions&, QueryCounters&, std::size_t&);
+template std::size_t any_hits(const Scene<double>&, const Ends<double>&, std::size_t, std::size_t, std::uint8_t*,
+                              const QueryOptions&, QueryCounters&, std::size_t&);
 
 }  // namespace pierce::detail

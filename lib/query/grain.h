@@ -56,7 +56,8 @@ template <class Scalar>
     return {rounded(point[0]), rounded(point[1]), rounded(point[2])};
 }
 
-/// The number next to `x`, which is a Scalar and finite, in the direction of `sign`, which is not 0. Without a branch: which
+/// The number next to `x`, which is a Scalar and finite, in the direction of `sign`, which is not 0. Without a branch:
+/// which
 /// way it goes can't be predicted.
 template <class Scalar>
 [[nodiscard]] double next_to(double x, double sign) {

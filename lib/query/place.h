@@ -5,7 +5,8 @@
 // behind it by the next rounding, or could not leave. So the first point to be tried is the true one P, moved off by a
 // grain along the normal, its coordinates rounded outwards, so that no term of n . (point - P) lacks of the grain; then
 // the same rounded to nearest, which half of the time is too near to the plane (as the first one to be tried it cost a
-// tenth of an answer). Near edges and corners of other faces neither may be clear. Then the triangle that stops the way says
+// tenth of an answer). Near edges and corners of other faces neither may be clear. Then the triangle that stops the way
+// says
 // where it may be: on the start's side of its plane or past one of its three edges, seen from the start. Each of these
 // is a half-space; the nearest point of those chosen so far is tried, and what stops the way to that adds another
 // choice. All choices are gone through in the order of their distances, but those that lead further than a grain and
@@ -14,7 +15,8 @@
 // each place on a lattice of one unit is tried; and only then points back along the way from the start.
 //
 // Cost: a half-space takes 64 sweeps of at most 8, a few microseconds in the worst case; a try is a query among the
-// triangles of the shortlist. There are 2 * `k_most_tries` + 8 tries at most, and the lattice has 7,153 places, of which
+// triangles of the shortlist. There are 2 * `k_most_tries` + 8 tries at most, and the lattice has 7,153 places, of
+// which
 // those a grain off the plane are asked about (some 1,900). That happens a few times in 10^5 hits on bumpy meshes. What
 // this does not find are clear places that hold no point of that lattice and are missed by all eight roundings.
 #pragma once
@@ -41,10 +43,15 @@ class PlaceSearch {
     /// `spot`: null where nothing but exact arithmetic is certain; `position` is the true point rounded, `normal` the
     /// face's.
     PlaceSearch(const Path& path, const Corners& corners, Sides side, double grain, const Spot* spot,
-                const Point& position, const Point& normal,
-                QueryCounters& counters, const Ways& ways)
-        : path_(path), corners_(corners), grain_(grain), unit_(grain / k_grain_units), per_unit_(1 / (unit_ * k_up)), spot_(spot),
-          counters_(counters), ways_(ways) {
+                const Point& position, const Point& normal, QueryCounters& counters, const Ways& ways)
+        : path_(path),
+          corners_(corners),
+          grain_(grain),
+          unit_(grain / k_grain_units),
+          per_unit_(1 / (unit_ * k_up)),
+          spot_(spot),
+          counters_(counters),
+          ways_(ways) {
         const Point& n = spot != nullptr ? spot->normal : normal;
         length_ = spot != nullptr ? spot->length : std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         const double inverse = 1 / length_;
@@ -162,7 +169,7 @@ class PlaceSearch {
         bool stopped = false;
         Corners blocker{};
         Decision blocked;
-                const unsigned step = thin_ ? 1 : k_outwards;
+        const unsigned step = thin_ ? 1 : k_outwards;
         for (unsigned rounding = k_to_nearest; rounding <= k_outwards && (thin_ || !stopped); rounding += step) {
             const Tried tried = try_near(by, rounding, hit);
             if (tried == Tried::clear) found_ = true;
@@ -204,7 +211,8 @@ class PlaceSearch {
     void find_back(double below, Hit<Scalar>& hit) {
         // Between the start and the first point tried, both of which are far enough from the plane.
         double way = 0;
-        for (std::size_t k = 0; k < 3; ++k) way = std::max(way, std::abs(high_[k] / 2 + off_[k] / 2 - path_.from[k] / 2));
+        for (std::size_t k = 0; k < 3; ++k)
+            way = std::max(way, std::abs(high_[k] / 2 + off_[k] / 2 - path_.from[k] / 2));
         double back = 4 * unit_ / way;
         if (!(back > 0)) back = 1;
         for (; back < 1; back *= 2) {
@@ -285,13 +293,15 @@ class PlaceSearch {
     const Ways& ways_;
     /// Of a grain, so that a point that lies exactly a grain off is not refused by the roundings here (2^-47).
     static constexpr double k_far = 1 - 0x1p-40;
-    /// More than products lose where they underflow, 2^-1075 each. A normal number: products with one that is not take 150 cycles.
+    /// More than products lose where they underflow, 2^-1075 each. A normal number: products with one that is not take
+    /// 150 cycles.
     static constexpr double k_underflow = 0x1p-1000;
     static constexpr int k_most_tries = 48;
     int most_tries_ = k_most_tries;
     bool thin_ = false;
     bool found_ = false;
-    /// Less what the true point may be off: a sixteenth of a unit a coordinate, or half a unit where it was only rounded.
+    /// Less what the true point may be off: a sixteenth of a unit a coordinate, or half a unit where it was only
+    /// rounded.
     double reach_;
     double length_;
     double off_length_ = 0;
@@ -308,7 +318,8 @@ class PlaceSearch {
 /// Sets `position`, `point` and `fraction` of a hit: the segment from -> point has no hit, none of the hit's own
 /// triangle, from whose plane the point keeps off, and none of any other, which `ways` says:
 ///   bool stops(point, corners, decision)   whether a triangle stops the way to a point within `near_margin(grain)` of
-///                                          the true one in each coordinate; if so, the corners of the first, and how it is hit
+///                                          the true one in each coordinate; if so, the corners of the first, and how
+///                                          it is hit
 ///   bool clear(point, near)            whether none stops the way to a point, near as above or any
 /// `from` itself needs no proof. `exact`: the true fraction, rounded once. Returns how many points were not clear.
 template <class Scalar, class Face, class Ways>
@@ -325,8 +336,8 @@ int place(const Path& path, const Corners& corners, const Decision& decision, do
             ++counters.exact_values;
             position = exact_position<Scalar>(path, corners);
         }
-        PlaceSearch<Scalar, Ways> search(path, corners, decision.side, grain, located.spot, position,
-                                         face.normal(), counters, ways);
+        PlaceSearch<Scalar, Ways> search(path, corners, decision.side, grain, located.spot, position, face.normal(),
+                                         counters, ways);
         tries = search.find(exact, hit);
     }
     for (int k = 0; k < 3; ++k) hit.position[k] = static_cast<Scalar>(position[static_cast<std::size_t>(k)]);

@@ -11,8 +11,8 @@ namespace pierce::detail {
 
 /// Writes everything but `fraction`, `point` and `position`, from what is certified (values.h).
 template <class Scalar>
-void report(const Measures& measures, const Point& normal, const Decision& decision, std::uint32_t face, std::uint32_t triangle,
-            Hit<Scalar>& hit) {
+void report(const Measures& measures, const Point& normal, const Decision& decision, std::uint32_t face,
+            std::uint32_t triangle, Hit<Scalar>& hit) {
     const double inverse = 1 / std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     for (int k = 0; k < 3; ++k) {
         const auto at = static_cast<std::size_t>(k);

@@ -35,8 +35,8 @@ template <class Scalar>
 void copy_triangles(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const Executor& executor) {
     scene.triangles = RawArray<IndexTriple>(mesh.triangles.size());
     each_chunk(executor, mesh.triangles.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-        std::copy(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(begin), mesh.triangles.begin() + static_cast<std::ptrdiff_t>(end),
-                  scene.triangles.begin() + begin);
+        std::copy(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(begin),
+                  mesh.triangles.begin() + static_cast<std::ptrdiff_t>(end), scene.triangles.begin() + begin);
     });
 }
 
@@ -46,7 +46,8 @@ void keep_degenerate(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const s
     scene.degenerate.reserve(numbers.size());
     for (const std::uint32_t i : numbers) {
         const IndexTriple& t = mesh.triangles[i];
-        scene.degenerate.push_back({i, {to_point(mesh.positions[t[0]]), to_point(mesh.positions[t[1]]), to_point(mesh.positions[t[2]])}});
+        scene.degenerate.push_back(
+            {i, {to_point(mesh.positions[t[0]]), to_point(mesh.positions[t[1]]), to_point(mesh.positions[t[2]])}});
     }
 }
 
@@ -59,7 +60,8 @@ Broadphase choose_broadphase(Broadphase wanted) {
     const std::string_view name = from_environment != nullptr ? from_environment : "";
     if (name.empty() || name == "tree") return Broadphase::tree;
     if (name == "grid") return Broadphase::grid;
-    throw std::invalid_argument("no broadphase '" + std::string(name) + "' for PIERCE_BROADPHASE, which takes: tree grid");
+    throw std::invalid_argument("no broadphase '" + std::string(name) +
+                                "' for PIERCE_BROADPHASE, which takes: tree grid");
 }
 
 template <class Scalar>
@@ -75,13 +77,15 @@ UniformGrid make_grid(std::span<const ClusterBox<Scalar>> boxes, const Frame& fr
 
 template <class Scalar>
 std::size_t Scene<Scalar>::bytes() const {
-    return sizeof(*this) + clusters.records.bytes() + cluster_refs.bytes() + triangles.bytes() + faces.capacity() * sizeof(std::uint32_t) +
-           degenerate.capacity() * sizeof(Degenerate) + tree.bytes() + grid.bytes();
+    return sizeof(*this) + clusters.records.bytes() + cluster_refs.bytes() + triangles.bytes() +
+           faces.capacity() * sizeof(std::uint32_t) + degenerate.capacity() * sizeof(Degenerate) + tree.bytes() +
+           grid.bytes();
 }
 
 template <class Scalar>
 Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options) {
-    // The caller's threads have floating-point environments of their own, and no use for what is thrown, when memory is at an end.
+    // The caller's threads have floating-point environments of their own, and no use for what is thrown, when memory is
+    // at an end.
     const auto in_standard_arithmetic = [&](std::size_t parts, Task task) {
         std::atomic_flag failed;
         std::exception_ptr failure;
@@ -121,8 +125,10 @@ Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& optio
         scene.frame = frame_of(built);
         scene.frame.noise = std::max(scene.near_bound * built.unit, std::numeric_limits<double>::min());
         const std::span boxes(built.boxes.data(), built.boxes.size());
-        if (scene.broadphase == Broadphase::grid) scene.grid = make_grid<Scalar>(boxes, scene.frame, options, executor);
-        else scene.tree = make_tree(boxes, scene.clusters.empty, scene.frame, executor);
+        if (scene.broadphase == Broadphase::grid)
+            scene.grid = make_grid<Scalar>(boxes, scene.frame, options, executor);
+        else
+            scene.tree = make_tree(boxes, scene.clusters.empty, scene.frame, executor);
     }
     copy_triangles(mesh, scene, executor);
     keep_degenerate(mesh, scene, built.degenerate);

@@ -35,14 +35,14 @@ struct Box {
 template <class Scalar>
 struct Scene {
     Clusters<Scalar> clusters;
-    RawArray<ClusterRef> cluster_refs;        ///< all of them
-    Broadphase broadphase = Broadphase::tree; ///< which of the two there is
+    RawArray<ClusterRef> cluster_refs;         ///< all of them
+    Broadphase broadphase = Broadphase::tree;  ///< which of the two there is
     Tree tree;
     UniformGrid grid;
     Frame frame;
-    Box bounds;                               ///< of all triangles but those of area zero
-    RawArray<IndexTriple> triangles;          ///< the caller's
-    std::vector<std::uint32_t> faces;         ///< as in MeshView; empty when a triangle's number is the face as well
+    Box bounds;                        ///< of all triangles but those of area zero
+    RawArray<IndexTriple> triangles;   ///< the caller's
+    std::vector<std::uint32_t> faces;  ///< as in MeshView; empty when a triangle's number is the face as well
     /// Triangles of area zero are in no cluster.
     struct Degenerate {
         std::uint32_t number;
@@ -50,7 +50,8 @@ struct Scene {
     };
     std::vector<Degenerate> degenerate;
     const Backend* backend = nullptr;
-    /// How far from the segment, in each coordinate, a hit's point may be looked for. Frame::noise is the same in scene units.
+    /// How far from the segment, in each coordinate, a hit's point may be looked for. Frame::noise is the same in scene
+    /// units.
     double near_bound = 0;
     /// How far from a face's plane a point keeps (place.h).
     double grain = 0;
@@ -58,10 +59,16 @@ struct Scene {
     std::size_t vertex_count = 0;
 
     [[nodiscard]] bool empty() const { return cluster_refs.empty(); }
-    [[nodiscard]] Corners corners(TriangleRef triangle) const { return clusters.corners(triangle.cluster, triangle.lane); }
+    [[nodiscard]] Corners corners(TriangleRef triangle) const {
+        return clusters.corners(triangle.cluster, triangle.lane);
+    }
     /// The caller's number.
-    [[nodiscard]] std::uint32_t number_of(TriangleRef triangle) const { return clusters.triangle(triangle.cluster, triangle.lane); }
-    [[nodiscard]] std::uint32_t face_of_number(std::uint32_t number) const { return faces.empty() ? number : faces[number]; }
+    [[nodiscard]] std::uint32_t number_of(TriangleRef triangle) const {
+        return clusters.triangle(triangle.cluster, triangle.lane);
+    }
+    [[nodiscard]] std::uint32_t face_of_number(std::uint32_t number) const {
+        return faces.empty() ? number : faces[number];
+    }
     [[nodiscard]] std::uint32_t face_of(TriangleRef triangle) const { return face_of_number(number_of(triangle)); }
     [[nodiscard]] std::size_t bytes() const;
 
@@ -91,7 +98,8 @@ struct Scene {
     return box;
 }
 
-/// Checks mesh and options (throws `MeshError` or std::invalid_argument), copies the mesh, and builds the broadphase. Not inlined: see engine.h.
+/// Checks mesh and options (throws `MeshError` or std::invalid_argument), copies the mesh, and builds the broadphase.
+/// Not inlined: see engine.h.
 template <class Scalar>
 [[nodiscard]] [[gnu::noinline]] Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options);
 

@@ -10,14 +10,15 @@ namespace pierce::detail {
 
 /// Gives the collector a triangle that the wide kernels leave, if the path hits it under `options` before `most`.
 template <class Kernel, class Scalar, class Collector>
-void test_triangle(const Scene<Scalar>& scene, const Path& path, TriangleRef triangle, const QueryOptions& options, double most,
-                   QueryCounters& counters, Collector& collector) {
+void test_triangle(const Scene<Scalar>& scene, const Path& path, TriangleRef triangle, const QueryOptions& options,
+                   double most, QueryCounters& counters, Collector& collector) {
     if (!collector.wants(triangle) || masked(scene, triangle, options)) return;
     Candidate& candidate = collector.room();
     Measured& measured = collector.measured();
     const double limit = std::min(collector.limit(), most);
     const Corners corners = scene.corners(triangle);
-    if (!Kernel::template test<Scalar>(corners, triangle, path, options.sides, limit, counters, measured, candidate)) return;
+    if (!Kernel::template test<Scalar>(corners, triangle, path, options.sides, limit, counters, measured, candidate))
+        return;
     if (candidate.latest > most) {
         if (candidate.earliest > most) return;
         if (!fraction_at_most(path, corners, most)) return;
@@ -26,11 +27,12 @@ void test_triangle(const Scene<Scalar>& scene, const Path& path, TriangleRef tri
     collector.add();
 }
 
-/// Gives the collector those of a cluster's triangles that are in `lanes`. Returns the fraction from which on hits are of
+/// Gives the collector those of a cluster's triangles that are in `lanes`. Returns the fraction from which on hits are
+/// of
 /// no use.
 template <class Kernel, class Scalar, class Collector>
-double test_cluster(const Scene<Scalar>& scene, const Path& path, ClusterRef cluster, unsigned lanes, const QueryOptions& options,
-                    double most, QueryCounters& counters, Collector& collector) {
+double test_cluster(const Scene<Scalar>& scene, const Path& path, ClusterRef cluster, unsigned lanes,
+                    const QueryOptions& options, double most, QueryCounters& counters, Collector& collector) {
     for (; lanes != 0; lanes &= lanes - 1) {
         const TriangleRef triangle{cluster, static_cast<std::uint32_t>(std::countr_zero(lanes))};
         test_triangle<Kernel>(scene, path, triangle, options, most, counters, collector);
@@ -48,15 +50,16 @@ double test_cluster(const Scene<Scalar>& scene, const Path& path, ClusterRef clu
 ///   void seen(triangle)           this was one that the wide kernels left
 /// `most`, or `options.max_fraction`, must not be NaN.
 template <class Kernel, class Scalar, class Collector>
-void traverse(const Scene<Scalar>& scene, const Path& path, const QueryOptions& options, double most, QueryCounters& counters,
-              Collector& collector) {
+void traverse(const Scene<Scalar>& scene, const Path& path, const QueryOptions& options, double most,
+              QueryCounters& counters, Collector& collector) {
     each_candidate(scene, path, options.sides, std::min(collector.limit(), most), counters,
                    [&](ClusterRef cluster, unsigned lanes) {
                        return test_cluster<Kernel>(scene, path, cluster, lanes, options, most, counters, collector);
                    });
 }
 template <class Kernel, class Scalar, class Collector>
-void traverse(const Scene<Scalar>& scene, const Path& path, const QueryOptions& options, QueryCounters& counters, Collector& collector) {
+void traverse(const Scene<Scalar>& scene, const Path& path, const QueryOptions& options, QueryCounters& counters,
+              Collector& collector) {
     traverse<Kernel>(scene, path, options, options.max_fraction, counters, collector);
 }
 

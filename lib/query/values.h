@@ -1,4 +1,5 @@
-// What is certified about a triangle that is hit, each value by the cheapest arithmetic that is certainly good enough: double (for float only),
+// What is certified about a triangle that is hit, each value by the cheapest arithmetic that is certainly good enough:
+// double (for float only),
 // double-double, exact integers.
 #pragma once
 
@@ -21,10 +22,13 @@ template <class Scalar>
 class CertifiedFace {
   public:
     /// All must live as long. `measured`: of this path.
-    CertifiedFace(const Path& path, const Measured& measured, const Decision& decision, const Refine& refine, QueryCounters& counters)
+    CertifiedFace(const Path& path, const Measured& measured, const Decision& decision, const Refine& refine,
+                  QueryCounters& counters)
         : path_(path), measured_(measured), decision_(decision), refine_(refine), counters_(counters) {
-        if constexpr (k_coarse) evaluate(measured_, measured_.meeting, values_);
-        else refine_(measured_, values_);
+        if constexpr (k_coarse)
+            evaluate(measured_, measured_.meeting, values_);
+        else
+            refine_(measured_, values_);
     }
     CertifiedFace(const CertifiedFace&) = delete;
     CertifiedFace& operator=(const CertifiedFace&) = delete;
@@ -64,7 +68,8 @@ class CertifiedFace {
   private:
     // At the start the fraction is exactly 0, and no computed one is within a part of itself.
     [[nodiscard]] bool is_near(const Values& x) const {
-        return x.good && x.weight_error <= k_tolerance && (decision_.at_start || x.fraction_error <= k_tolerance * x.fraction);
+        return x.good && x.weight_error <= k_tolerance &&
+               (decision_.at_start || x.fraction_error <= k_tolerance * x.fraction);
     }
 
     [[nodiscard]] Measures measures_of(const Values& x) const {

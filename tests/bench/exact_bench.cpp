@@ -1,4 +1,5 @@
-// What the exact room costs: its integers and its accumulator against floating-point expansions, on coordinates of several kinds, in one run.
+// What the exact room costs: its integers and its accumulator against floating-point expansions, on coordinates of
+// several kinds, in one run.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

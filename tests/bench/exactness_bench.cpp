@@ -1,4 +1,5 @@
-// What certainty costs: how often the exact room is entered on real meshes, and the time of exact first hits over that of their inexact
+// What certainty costs: how often the exact room is entered on real meshes, and the time of exact first hits over that
+// of their inexact
 // twin. Where the two find different triangles, it says how often. And what each part of an answer costs.
 #include <algorithm>
 #include <cstdio>
@@ -16,7 +17,8 @@ namespace {
 
 using namespace detail;
 
-/// The inexact twin: the same code with the sign of each double taken as final, and values, normals and places straight from the doubles. A plain
+/// The inexact twin: the same code with the sign of each double taken as final, and values, normals and places straight
+/// from the doubles. A plain
 /// floating-point library, in effect.
 struct Trusting {
     template <class Scalar>
@@ -182,7 +184,8 @@ void answer_until(const Scene<Scalar>& scene, const Path& path, const std::vecto
     }
 }
 
-/// Prints what each part of an answer costs, from the triangles that the wide kernels left: medians over chunks of hits, of each the least of many times.
+/// Prints what each part of an answer costs, from the triangles that the wide kernels left: medians over chunks of
+/// hits, of each the least of many times.
 template <class Scalar>
 void measure_parts(const char* scalar, std::string_view name) {
     const TriangleSoup<Scalar> soup = real_mesh<Scalar>(name);

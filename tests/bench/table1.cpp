@@ -1,4 +1,5 @@
-// Baldwin and Weber's Table 1 again: each kernel's time as a share of Moller and Trumbore's and of the Embree-style test's.
+// Baldwin and Weber's Table 1 again: each kernel's time as a share of Moller and Trumbore's and of the Embree-style
+// test's.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

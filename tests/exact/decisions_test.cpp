@@ -1,4 +1,5 @@
-// Every decision is that of exact arithmetic: the exact room, and the filter where it is certain, against CGAL and rational numbers.
+// Every decision is that of exact arithmetic: the exact room, and the filter where it is certain, against CGAL and
+// rational numbers.
 #include <gtest/gtest.h>
 #include <exact/fraction.h>
 #include <kernel/filter.h>
@@ -19,7 +20,8 @@ struct Tally {
     std::int64_t undefined = 0;  // for CGAL
 };
 
-// What the traversal does with one triangle: the filter, and the exact room where that is in doubt. Both must agree with the judge.
+// What the traversal does with one triangle: the filter, and the exact room where that is in doubt. Both must agree
+// with the judge.
 void check(const Pair& pair, Sides sides, bool truth, Tally& tally) {
     const Decision decision = detail::decide(pair.path, pair.corners, sides);
     ASSERT_EQ(decision.hit, truth) << describe(pair);

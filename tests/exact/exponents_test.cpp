@@ -1,4 +1,5 @@
-// The exact room for coordinates whose exponents have nothing to do with one another, against rational numbers: subnormal, huge and ordinary ones in
+// The exact room for coordinates whose exponents have nothing to do with one another, against rational numbers:
+// subnormal, huge and ordinary ones in
 // one triangle. The other tests scale all coordinates alike and never leave the integers of a fixed width.
 #include <gtest/gtest.h>
 #include <exact/crossing.h>

@@ -1,4 +1,5 @@
-// Which wide kernels work is for the caller to say, then for the environment; a name that the machine has no kernels for is refused.
+// Which wide kernels work is for the caller to say, then for the environment; a name that the machine has no kernels
+// for is refused.
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>

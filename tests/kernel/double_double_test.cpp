@@ -1,4 +1,5 @@
-// Double-double numbers lose no more than is said of each operation: against GMP's integers, on which every double is a whole multiple of 2^-1074.
+// Double-double numbers lose no more than is said of each operation: against GMP's integers, on which every double is a
+// whole multiple of 2^-1074.
 #include <support/random.h>
 #include <support/whole.h>
 
@@ -22,7 +23,8 @@ struct Worst {
     double low = 0;
 };
 
-// Sums and products of numbers whose low parts are up to nine units, the most in use; `around`: of the binary exponents.
+// Sums and products of numbers whose low parts are up to nine units, the most in use; `around`: of the binary
+// exponents.
 std::array<Worst, 2> worst_of_operations(int pairs, int around) {
     Random random(7);
     Worst sum;

@@ -1,4 +1,5 @@
-// The filter is never wrong when it is certain: a million decisions against exact rational arithmetic, and a hundred million in the
+// The filter is never wrong when it is certain: a million decisions against exact rational arithmetic, and a hundred
+// million in the
 // slow run. Both scalar types; all sizes from the smallest to the largest numbers there are.
 #include <atomic>
 #include <thread>
@@ -25,7 +26,8 @@ struct Tally {
     std::atomic<std::int64_t> wrong = 0;
 };
 
-// Around one triangle, several segments: the pair's own, that with its ends exchanged, and some that start or end on a corner.
+// Around one triangle, several segments: the pair's own, that with its ends exchanged, and some that start or end on a
+// corner.
 template <class Scalar>
 void judge(Family family, int power, double offset, Random& random, GmpOracle& oracle, Tally& tally) {
     Pair pair = make_pair_of<Scalar>(family, 1, offset, random);
@@ -101,7 +103,8 @@ void run(std::int64_t decisions, int lowest_power, int highest_power) {
         GmpOracle oracle;
         for (std::int64_t i = 0; i < share && tally.wrong == 0; i += 4) {
             const auto family = static_cast<Family>(random.below(k_family_names.size()));
-            // The size of everyday coordinates; any size that the filter works in, and those where its products become denormal or
+            // The size of everyday coordinates; any size that the filter works in, and those where its products become
+            // denormal or
             // overflow; and both ends of the range.
             int power = random.between_ints(-20, 20);
             const double kind = random.unit();

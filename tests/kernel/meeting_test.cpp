@@ -1,4 +1,5 @@
-// The volumes of a meeting and all values from them stay within their bounds, in double and in twice that precision: against GMP's integers.
+// The volumes of a meeting and all values from them stay within their bounds, in double and in twice that precision:
+// against GMP's integers.
 // And values in twice the precision are the same bits with fused operations and without.
 #include <exact/decide.h>
 #include <kernel/backends.h>
@@ -111,7 +112,8 @@ void judge(const test::Pair& pair, double tolerance, Tally& tally) {
     if (values.fraction_error <= tolerance * values.fraction && values.weight_error <= tolerance && values.normal_error <= tolerance * length) ++tally.values;
 }
 
-// Pairs of all families, as they come (`power` 0) or scaled, beyond the ends of the range too, where one axis may be squeezed. Some are flat along an axis.
+// Pairs of all families, as they come (`power` 0) or scaled, beyond the ends of the range too, where one axis may be
+// squeezed. Some are flat along an axis.
 test::Pair pair_of(Random& random) {
     const auto family = static_cast<Family>(random.below(k_family_names.size()));
     test::Pair pair = make_pair_of<double>(family, 1, random.chance(0.5) ? 0 : std::exp(random.between(0, 14)), random);
@@ -142,7 +144,8 @@ Tally tally_of(int count, double tolerance) {
 
 TEST(Meeting, volumes_and_values_in_double_stay_within_their_bounds) {
     const Tally tally = tally_of<detail::Pair>(30'000, 0x1p-29);
-    // A judge that sees no error looks at the wrong thing. (The unit allows for any rounding mode: twice what is lost here.)
+    // A judge that sees no error looks at the wrong thing. (The unit allows for any rounding mode: twice what is lost
+    // here.)
     EXPECT_GT(tally.volume, 0.05);
     EXPECT_GT(tally.value, 0.01);
     EXPECT_GT(tally.place, 0.01);

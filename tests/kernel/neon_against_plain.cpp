@@ -1,5 +1,6 @@
 // Runs the kernels for 64-bit Arm and the plain ones side by side, without anything that a cross compiler would have to
-// be given: what one leaves, the other leaves, but for triangles and boxes so close that the last bits of a bound decide.
+// be given: what one leaves, the other leaves, but for triangles and boxes so close that the last bits of a bound
+// decide.
 #include <cstdio>
 #include <random>
 

@@ -41,7 +41,8 @@ auto tested(const Kernel& kernel, const std::array<Vec3<Scalar>, 3>& t, const Ve
     return kernel.test(kernel.prepare(t[0], t[1], t[2]), from, to);
 }
 
-/// How a pair lies, in long double: 64 bits, so that what is measured in units of a double's rounding still has three digits.
+/// How a pair lies, in long double: 64 bits, so that what is measured in units of a double's rounding still has three
+/// digits.
 struct Margins {
     template <class Scalar>
     Margins(const std::array<Vec3<Scalar>, 3>& t, const Vec3<Scalar>& p, const Vec3<Scalar>& q) {

@@ -1,4 +1,5 @@
-// A number that counts what is done with it. Changing a sign, comparing and copying are free, as they are in the sources' counts.
+// A number that counts what is done with it. Changing a sign, comparing and copying are free, as they are in the
+// sources' counts.
 #pragma once
 
 #include <compare>

@@ -67,7 +67,8 @@ std::pair<double, int> at_scale(int exponent, std::size_t n) {
     return {worst, wrong};
 }
 
-// Powers of two change nothing: each error is that of 2^0, to the bit, and all answers are right. Edges are 0.5 to 1.1 long, so the exponents of
+// Powers of two change nothing: each error is that of 2^0, to the bit, and all answers are right. Edges are 0.5 to 1.1
+// long, so the exponents of
 // the documented range are those with one to spare.
 template <class Scalar>
 void expect_range() {
@@ -90,7 +91,8 @@ void expect_range() {
     const auto has_basis = [](const V& b, const V& c) { return TriangleFan::has_basis<Scalar>(V(0, 0, 0), b, c); };
     EXPECT_TRUE(has_basis({1, 0, 0}, {1, small, 0}));
     EXPECT_FALSE(has_basis({1, 0, 0}, {1, small / 2, 0}));
-    // Neighbours that share a short edge, one as large and as thin as is allowed, the other as small: the turns' largest numbers, and finite.
+    // Neighbours that share a short edge, one as large and as thin as is allowed, the other as small: the turns'
+    // largest numbers, and finite.
     std::vector<V> ring = {{large, 0, 0}, {0, 2 * small * large, 0}, {-1, small, 0}};
     for (int turned = 0; turned < 2; ++turned) {
         const auto stored = kernels::triangle_fan.prepare<Scalar>(V(0, 0, 0), ring);

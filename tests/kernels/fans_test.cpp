@@ -56,7 +56,8 @@ TEST(Fans, CoverEveryTriangleOnce) {
     odd.triangles.push_back({1, 0, 5});  // turned against its neighbour
     expect_cover(odd);
     EXPECT_TRUE(fans_of(TriangleSoup<double>{}.view()).empty());
-    // Two triangles that share a long edge: each has a basis at the corner that it names first, but not at the ends of the edge.
+    // Two triangles that share a long edge: each has a basis at the corner that it names first, but not at the ends of
+    // the edge.
     const double s = 1.5 * std::ldexp(1.0, kernels::k_fan_range<double>);
     TriangleSoup<double> long_edge;
     long_edge.positions = {{0, 0, 0}, {s, 0, 0}, {-s, s / 2, 0}, {0, s, 0}};
@@ -66,7 +67,8 @@ TEST(Fans, CoverEveryTriangleOnce) {
     EXPECT_THROW((void)fans_of(odd.view()), MeshError);
 }
 
-// A double cone over a polygon with 50 corners: two vertices of valence 50. Cut into as few parts as will do, equally long but for one.
+// A double cone over a polygon with 50 corners: two vertices of valence 50. Cut into as few parts as will do, equally
+// long but for one.
 TEST(Fans, HaveAtMostTheMembersThatAreAskedFor) {
     TriangleSoup<double> cone;
     cone.positions = {{0, 0, 1}, {0, 0, -1}};

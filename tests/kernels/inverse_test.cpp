@@ -1,4 +1,5 @@
-// What is stored is what it should be: maps take the corners to the unit triangle, and nothing hits a triangle without area.
+// What is stored is what it should be: maps take the corners to the unit triangle, and nothing hits a triangle without
+// area.
 #include <cstdio>
 #include <limits>
 #include <map>

@@ -12,7 +12,8 @@ namespace {
 
 using D = Vec3<double>;
 
-// A right-angled triangle with two legs of the same length, hit in its middle along its normal: det is the square of the leg.
+// A right-angled triangle with two legs of the same length, hit in its middle along its normal: det is the square of
+// the leg.
 TEST(KernelWeaknesses, McGuiresEpsilonLosesTrianglesBelowAThirdOfAMillimetre) {
     const auto is_hit = [](const kernels::McGuire& kernel, double leg) {
         return tested(kernel, {D{0, 0, 0}, {leg, 0, 0}, {0, leg, 0}}, D(leg / 3, leg / 3, 1), D(leg / 3, leg / 3, -1))
@@ -70,7 +71,8 @@ bool hit_with_published_signs(const std::array<D, 3>& t, const D& from, const D&
     return u >= 0 && u <= denominator && v >= 0 && u + v <= denominator;
 }
 
-// Triangles of size 1 and segments through their inside. Of the point where the segment meets the plane the listing has from's part right
+// Triangles of size 1 and segments through their inside. Of the point where the segment meets the plane the listing has
+// from's part right
 // and to's mirrored in the origin: two thirds are lost there, all at ten times the size away from it.
 TEST(KernelWeaknesses, BloomsPublishedSignsLoseMostHits) {
     for (const double offset : {0.0, 10.0}) {
@@ -91,7 +93,8 @@ TEST(KernelWeaknesses, BloomsPublishedSignsLoseMostHits) {
     }
 }
 
-// A step that ends on a triangle as nearly as coordinates allow, and one that goes on from there: by the rule exactly one of them hits.
+// A step that ends on a triangle as nearly as coordinates allow, and one that goes on from there: by the rule exactly
+// one of them hits.
 TEST(KernelWeaknesses, WhereThePlaneIsNoFunctionOfThePointChainsOfStepsLeak) {
     Random random(8);
     std::map<std::string, int> through;
@@ -125,7 +128,8 @@ TEST(KernelWeaknesses, WhereThePlaneIsNoFunctionOfThePointChainsOfStepsLeak) {
     }
 }
 
-// A regular fan with n triangles around its axis, flat: each is hit in its middle, and compared with the same triangle tested alone.
+// A regular fan with n triangles around its axis, flat: each is hit in its middle, and compared with the same triangle
+// tested alone.
 TEST(KernelWeaknesses, ErrorsOfAFanGrowAlongItsMembers) {
     std::map<int, double> worst;
     for (const int n : {4, 10, 16, 64, 256}) {
@@ -233,7 +237,8 @@ TEST(KernelWeaknesses, OnlyWatertightAndExactHaveNoHolesAtCorners) {
     }
 }
 
-// A segment down the z axis, and an edge that passes it at a distance of 2^-47: both products of its edge function are 1 in float.
+// A segment down the z axis, and an edge that passes it at a distance of 2^-47: both products of its edge function are
+// 1 in float.
 TEST(KernelWeaknesses, WatertightLooksAgainAtEdgeFunctionsThatRoundToZero) {
     const float e = 0x1p-23F;
     const Vec3<float> p(1, 1 - e, 0);

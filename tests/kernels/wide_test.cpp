@@ -1,4 +1,5 @@
-// Several lanes at once give each lane the bits that the scalar form gives: it is one formula, and no operation depends on its neighbours.
+// Several lanes at once give each lane the bits that the scalar form gives: it is one formula, and no operation depends
+// on its neighbours.
 #include <gtest/gtest.h>
 
 #include <kernel/wide.h>

@@ -1,7 +1,9 @@
 // Reading gives the same bits in every floating-point environment.
 //
-// A binary PLY file with double coordinates was read into float by the caller's arithmetic. Where denormal numbers are flushed, which
-// games and -ffast-math switch on, 1e-40 became 0, a face of that size lost its area, and particles fell through it; rounding
+// A binary PLY file with double coordinates was read into float by the caller's arithmetic. Where denormal numbers are
+// flushed, which
+// games and -ffast-math switch on, 1e-40 became 0, a face of that size lost its area, and particles fell through it;
+// rounding
 // upwards, 0.1 became the next float. Mesh and particles then stood on different coordinates than in the tool that
 // wrote the file. The judges are the bits that the standard environment gives, and constants.
 #include "read_test_support.h"
@@ -81,7 +83,8 @@ TEST(ReadEnvironment, DoublesOfABinaryFileAreRoundedToNearestFloats) {
 }
 
 TEST(ReadEnvironment, ChangesNoBitOfAnyFormat) {
-    // Numbers between two floats, denormal ones, and a concave polygon with three corners that are on one line but for a rounding,
+    // Numbers between two floats, denormal ones, and a concave polygon with three corners that are on one line but for
+    // a rounding,
     // which other rounding modes would cut another way.
     const std::vector<double> pentagon = {0, 0, 0, 4, 0.1, 1e-39, 4.1, 4, 0.3, 2, 0.05, 1e-310, 0.1, 3.9, 1e-40};
     std::vector<float> floats(9);
@@ -120,7 +123,8 @@ TEST(ReadEnvironment, ChangesNoBitOfAnyFormat) {
 std::string with_y(double y) { return double_ply({0, 0, 0, 1, 0, 0, 0, y, 0}, std::endian::little); }
 
 TEST(ReadEnvironment, RefusesTheSameNumbersInTheSameWordsAndIsGivenBackThen) {
-    // The largest float is 2^128 - 2^104. Up to half a step above it doubles are rounded down to it, from there on to infinity.
+    // The largest float is 2^128 - 2^104. Up to half a step above it doubles are rounded down to it, from there on to
+    // infinity.
     const double half_a_step = 0x1p128 - 0x1p103;
     const TempFile fits("ply", with_y(std::nextafter(half_a_step, 0.0)));
     const TempFile just_too_large("ply", with_y(half_a_step));

@@ -1,4 +1,5 @@
-// all_hits with `accept`: the way to each hit's point is clear but for hits that were accepted, and come strictly before it.
+// all_hits with `accept`: the way to each hit's point is clear but for hits that were accepted, and come strictly
+// before it.
 //
 //   from                 Two faces almost in the same place. `accept` refuses the contact of the caller's segment with the nearer one, by
 //     \                  its barycentric weights (a hole in a texture, no larger than that); it takes other contacts with it.
@@ -23,7 +24,8 @@ struct Stack {
     Segment<Scalar> segment;
 };
 
-// Faces one above the other, from a tenth to a unit in the last place of their size apart, and a segment down through them.
+// Faces one above the other, from a tenth to a unit in the last place of their size apart, and a segment down through
+// them.
 template <class Scalar>
 Stack<Scalar> stack(std::uint32_t faces, Random& random) {
     using S = Vec3<Scalar>;

@@ -1,4 +1,5 @@
-// Queries, one at a time and in batches, allocate nothing. An executable of its own: it counts every call of operator new.
+// Queries, one at a time and in batches, allocate nothing. An executable of its own: it counts every call of operator
+// new.
 #include <atomic>
 #include <cstdio>
 

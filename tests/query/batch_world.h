@@ -1,4 +1,5 @@
-// What batches are tried with: a mesh of lattice and random triangles whose faces are cut into several, and segments of all kinds,
+// What batches are tried with: a mesh of lattice and random triangles whose faces are cut into several, and segments of
+// all kinds,
 // finite and not.
 #pragma once
 
@@ -23,7 +24,8 @@ TriangleSoup<Scalar> lattice_and_shards() {
     return moved<Scalar>(soup, 1, Vec3<double>(0.5, 0.25, 0));
 }
 
-/// One in thirty has a coordinate that is NaN or infinite; a few are of no length, miss the mesh's box, or reach so far that every
+/// One in thirty has a coordinate that is NaN or infinite; a few are of no length, miss the mesh's box, or reach so far
+/// that every
 /// triangle is asked.
 template <class Scalar>
 std::vector<Segment<Scalar>> batch_segments(const MeshView<Scalar>& mesh, std::size_t count, std::uint64_t seed) {

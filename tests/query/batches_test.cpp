@@ -1,4 +1,5 @@
-// Batches are single calls, to the last bit: however the queries are stored, cut into calls, spread over threads, and under all options.
+// Batches are single calls, to the last bit: however the queries are stored, cut into calls, spread over threads, and
+// under all options.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -219,7 +220,8 @@ std::array<std::uint64_t, 9> fields(const QueryCounters& c) {
     return {c.queries, c.nodes, c.clusters, c.triangles, c.exact_decisions, c.exact_orders, c.exact_values, c.exact_sides, c.retreats};
 }
 
-// What is counted once depended on a query's neighbours: with crowded cells, on whether the list of all of them was full.
+// What is counted once depended on a query's neighbours: with crowded cells, on whether the list of all of them was
+// full.
 TYPED_TEST(Batches, count_as_single_calls_do_whoever_is_beside_them) {
     auto stadium = this->soup_;  // small and large triangles, for more than one level
     const auto first = static_cast<std::uint32_t>(stadium.positions.size());

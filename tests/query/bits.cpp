@@ -1,4 +1,5 @@
-// Prints one fingerprint of many answers, so that builds by different compilers and flags can be compared (tests/same_bits).
+// Prints one fingerprint of many answers, so that builds by different compilers and flags can be compared
+// (tests/same_bits).
 #include <cmath>
 #include <cstdio>
 

@@ -77,7 +77,8 @@ TEST(Contract, from_both_sides_the_point_stays_on_its_own) {
     }
 }
 
-// A point that rests on the plane, in the face, on an edge and on a corner, leaves it to the front and stops at it to the back.
+// A point that rests on the plane, in the face, on an edge and on a corner, leaves it to the front and stops at it to
+// the back.
 TEST(Contract, from_both_sides_a_resting_point_leaves_to_the_front) {
     const CollisionMesh<double> mesh(triangle().view());
     for (const V& at : {V(1, 1, 0), V(2, 0, 0), V(2, 2, 0), V(0, 0, 0), V(4, 0, 0)})
@@ -142,7 +143,8 @@ TEST(Contract, degenerate_triangles_never_hit) {
 }
 
 TEST(Contract, ties_go_to_the_smallest_face) {
-    // A fan of four around the origin, with the faces numbered by the caller in another order; the fifth doubles one of them.
+    // A fan of four around the origin, with the faces numbered by the caller in another order; the fifth doubles one of
+    // them.
     TriangleSoup<double> soup{{V(0, 0, 0), V(1, 0, 0), V(0, 1, 0), V(-1, 0, 0), V(0, -1, 0)},
                               {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {0, 2, 3}},
                               {40, 30, 20, 10, 5}};
@@ -168,7 +170,8 @@ TEST(Contract, ties_go_to_the_smallest_face) {
 }
 
 TEST(Contract, order_is_exact_where_doubles_see_a_tie) {
-    // Two faces a hair apart: one is tilted so that it comes first at x = 1 by 2^-60 of the way, far below a double's step there.
+    // Two faces a hair apart: one is tilted so that it comes first at x = 1 by 2^-60 of the way, far below a double's
+    // step there.
     const double hair = 0x1p-60;
     TriangleSoup<double> soup{{V(0, 0, 0), V(4, 0, 0), V(0, 4, 0), V(0, 0, 0), V(4, 0, 4 * hair), V(0, 4, 0)},
                               {{0, 1, 2}, {3, 4, 5}},
@@ -204,7 +207,8 @@ TEST(Contract, max_fraction_is_exact_and_closed) {
 }
 
 TEST(Contract, a_nearer_hit_beyond_the_limit_of_sides_does_not_hide_one) {
-    // Sides are looked at before the minimum is taken: the back of the first face does not hide the front of the second.
+    // Sides are looked at before the minimum is taken: the back of the first face does not hide the front of the
+    // second.
     TriangleSoup<double> soup{{V(0, 0, 2), V(0, 4, 2), V(4, 0, 2), V(0, 0, 1), V(4, 0, 1), V(0, 4, 1)},
                               {{0, 1, 2}, {3, 4, 5}},
                               {}};
@@ -235,7 +239,8 @@ TEST(Contract, all_hits_counts_what_it_leaves_out) {
 }
 
 TEST(Contract, of_two_hits_at_one_place_neither_hides_the_other_from_its_point) {
-    // A ridge of two slopes, hit on the ridge itself from many sides: both faces are hit at the same fraction, so the way to either
+    // A ridge of two slopes, hit on the ridge itself from many sides: both faces are hit at the same fraction, so the
+    // way to either
     // point must be clear of both.
     const TriangleSoup<double> soup{{V(0, -1, 0), V(0, 1, 0), V(1, 0, -0.7), V(-1, 0, -0.3)}, {{0, 2, 1}, {0, 1, 3}}, {}};
     const CollisionMesh<double> mesh(soup.view());
@@ -328,8 +333,10 @@ TEST(Contract, coordinates_at_both_ends_of_the_range) {
     }
 }
 
-// A hit's point need not lie on the segment: the way to it is clear, it keeps off the plane by a grain (or as far as the start), it is near the true
-// one, and who goes on from there to the same end is stopped again, for certain where the way's own triangle is met further from its edges than
+// A hit's point need not lie on the segment: the way to it is clear, it keeps off the plane by a grain (or as far as
+// the start), it is near the true
+// one, and who goes on from there to the same end is stopped again, for certain where the way's own triangle is met
+// further from its edges than
 // the point may lie aside.
 template <class Scalar>
 void expect_verified(const TriangleSoup<Scalar>& soup, std::uint64_t seed) {

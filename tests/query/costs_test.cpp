@@ -1,7 +1,9 @@
 // What used to be slow is not: counted, not timed, each against its undisturbed counterpart.
 //
-// Found by trying the library as a new user would: `contains` took an exact decision for each face of a box that begins at coordinate 0 (29 ms above a
-// fan of 256), and for each face whose edge lies on the way out (6 s for 80,000); one large triangle beside a dense part made a query look at
+// Found by trying the library as a new user would: `contains` took an exact decision for each face of a box that begins
+// at coordinate 0 (29 ms above a
+// fan of 256), and for each face whose edge lies on the way out (6 s for 80,000); one large triangle beside a dense
+// part made a query look at
 // all of it; 100,000 duplicates cost `all_hits` the product of hits kept and hits met.
 #include <gtest/gtest.h>
 #include <pierce/pierce.h>
@@ -90,7 +92,8 @@ TEST(Costs, contains_above_a_wide_fan) {
     }
 }
 
-// 80,000 faces with an edge on the x axis. Points on it see all of them edge-on along the axis; what exact arithmetic is needed for are those whose edge
+// 80,000 faces with an edge on the x axis. Points on it see all of them edge-on along the axis; what exact arithmetic
+// is needed for are those whose edge
 // holds the point itself, once each.
 TEST(Costs, contains_beside_many_faces_seen_edge_on) {
     Random random(62);
@@ -118,7 +121,8 @@ TEST(Costs, contains_beside_many_faces_seen_edge_on) {
     }
 }
 
-// A unit sphere beside one triangle of 1e10: to floats, all of the sphere is at one parameter of a segment from far away, and all of its boxes are one
+// A unit sphere beside one triangle of 1e10: to floats, all of the sphere is at one parameter of a segment from far
+// away, and all of its boxes are one
 // in the root's frame. Each query went through the whole sphere.
 TEST(Costs, one_large_triangle_beside_a_dense_part) {
     std::array<std::uint64_t, 2> work{};
@@ -152,7 +156,8 @@ TEST(Costs, all_hits_on_many_faces_in_one_place) {
         const std::size_t count = duplicates ? 100'000 : 3'000;
         TriangleSoup<float> soup;
         Random random(64);
-        // In one plane: either all the same, or with corners of their own, so that only exact arithmetic sees that they are hit at one fraction.
+        // In one plane: either all the same, or with corners of their own, so that only exact arithmetic sees that they
+        // are hit at one fraction.
         for (std::size_t i = 0; i < count; ++i) {
             const double by = duplicates ? 0 : 0.3;
             const auto some = [&](double x, double y) { return V(x + random.between(-by, by), y + random.between(-by, by), 0); };

@@ -1,4 +1,5 @@
-// What a query went through is counted, all of it, one by one and in batches; and the longest of segments ask little of the exact room.
+// What a query went through is counted, all of it, one by one and in batches; and the longest of segments ask little of
+// the exact room.
 #include <numeric>
 #include <utility>
 
@@ -31,7 +32,8 @@ void expect_all_counted() {
         soup.positions.push_back({static_cast<Scalar>(x), static_cast<Scalar>(y), Scalar{5}});
     soup.triangles.push_back({first, first + 1, first + 2});
     soup.triangles.push_back({first + 3, first + 4, first + 5});
-    // Two sheets at 45 degrees that meet above all this, in a valley: what comes down on one of them close to the valley must keep off both.
+    // Two sheets at 45 degrees that meet above all this, in a valley: what comes down on one of them close to the
+    // valley must keep off both.
     const auto valley = static_cast<std::uint32_t>(soup.positions.size());
     for (const auto& [x, y, z] : {std::array{100, -10, 20}, {100, 10, 20}, {115, 0, 23}, {115, 0, 40}})
         soup.positions.push_back({static_cast<Scalar>(x), static_cast<Scalar>(y), static_cast<Scalar>(z)});
@@ -90,7 +92,8 @@ void expect_all_counted() {
 TEST(Counters, count_all_exact_arithmetic_in_float) { expect_all_counted<float>(); }
 TEST(Counters, count_all_exact_arithmetic_in_double) { expect_all_counted<double>(); }
 
-// A segment so long that no grid can be walked: each triangle is asked once, and the filter does not work on such a length.
+// A segment so long that no grid can be walked: each triangle is asked once, and the filter does not work on such a
+// length.
 TEST(Counters, the_longest_segments_ask_for_each_triangle_once) {
     const TriangleSoup<double> soup = bumpy_sphere(6);
     const CollisionMesh<double> mesh(soup.view());

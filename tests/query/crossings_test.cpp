@@ -1,4 +1,5 @@
-// Crossings count each passage through the surface once: on lattices, where nearly every segment is degenerate, against the cubes
+// Crossings count each passage through the surface once: on lattices, where nearly every segment is degenerate, against
+// the cubes
 // that the surface bounds; on real closed meshes against CGAL.
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
@@ -107,7 +108,8 @@ TEST(Crossings, winding_number_counts_nested_and_inverted_surfaces) {
     EXPECT_EQ(mesh.winding_number(V(5, 0, 0)), -1);
 }
 
-// Segments and points of each mesh that are really compared: one that CGAL finds on the surface itself has no parity and is not.
+// Segments and points of each mesh that are really compared: one that CGAL finds on the surface itself has no parity
+// and is not.
 constexpr int k_compared = 125'000;
 constexpr std::array<std::string_view, 8> k_closed_meshes = {"blobby", "couplingdown", "triceratops", "elephant",
                                                              "eight",  "fandisk",      "knot1",       "rotor"};

@@ -1,4 +1,5 @@
-// The caller's floating-point environment changes nothing: flush to zero, denormals are zero, every rounding mode, and both at once.
+// The caller's floating-point environment changes nothing: flush to zero, denormals are zero, every rounding mode, and
+// both at once.
 // And where every floating-point exception stops the program, none is raised, not even by what is not a number.
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
@@ -72,7 +73,8 @@ TEST(Environment, changes_no_bit) {
     expect_same_everywhere<double>("huge doubles", sphere, 1e300);
 }
 
-// Threads that a build is given may have settings of their own, as a game's pool has that was made to flush: a mesh of denormal numbers
+// Threads that a build is given may have settings of their own, as a game's pool has that was made to flush: a mesh of
+// denormal numbers
 // had no area then, and a raster that rounds otherwise than the query's lost triangles.
 template <class Scalar>
 void expect_same_builds(const char* what, double scale) {

@@ -1,7 +1,9 @@
 // Every reason, and every edge named, is that of rational arithmetic on each face by itself.
 //
-// The tests of small cases never had a face with the segment wholly behind it, nor one passed from its back outside of an
-// edge, nor one passed beyond a corner, outside of two edges at once: code that never said `behind`, took the wrong sign for
+// The tests of small cases never had a face with the segment wholly behind it, nor one passed from its back outside of
+// an
+// edge, nor one passed beyond a corner, outside of two edges at once: code that never said `behind`, took the wrong
+// sign for
 // backs or named the higher of two edges passed them.
 #include <map>
 
@@ -86,7 +88,8 @@ TEST(ExplainReasons, are_those_of_rational_arithmetic) {
 }
 
 TEST(ExplainReasons, in_small_cases) {
-    // The face lies in the plane z = 0, its front up; edge 0 is the one along x, edge 1 the slanted one, edge 2 that along y.
+    // The face lies in the plane z = 0, its front up; edge 0 is the one along x, edge 1 the slanted one, edge 2 that
+    // along y.
     const std::vector<V> positions = {V(0, 0, 0), V(4, 0, 0), V(0, 4, 0), V(0, 0, -9), V(0, 0, -9.5), V(0, 0.5, -9)};
     const std::vector<IndexTriple> triangles = {{0, 1, 2}, {3, 4, 5}};  // the second is far away, and makes the mesh's box deep
     const CollisionMesh<double> mesh({positions, triangles});

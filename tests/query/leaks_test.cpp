@@ -1,4 +1,5 @@
-// No chain of steps gets from the front of a closed surface to its back without a hit, not through an edge and not through a vertex;
+// No chain of steps gets from the front of a closed surface to its back without a hit, not through an edge and not
+// through a vertex;
 // and the experiment that says why hits and crossings follow two rules, which must not be mixed.
 #include <gtest/gtest.h>
 #include <exact/crossing.h>
@@ -61,7 +62,8 @@ TYPED_TEST(Leaks, none_in_the_corner_of_floor_and_wall) {
     }
 }
 
-// Every vertex, edge and face of lattice meshes as a start, every direction of motion: what ends inside was hit on the way.
+// Every vertex, edge and face of lattice meshes as a start, every direction of motion: what ends inside was hit on the
+// way.
 TYPED_TEST(Leaks, none_from_any_vertex_edge_or_face_in_any_octant) {
     std::int64_t into = 0;
     for (std::uint64_t seed = 0; seed < 6; ++seed)
@@ -88,7 +90,8 @@ TYPED_TEST(Leaks, none_from_any_vertex_edge_or_face_in_any_octant) {
     EXPECT_GT(into, 100'000);
 }
 
-// Where both sides count: what ends inside was hit on the way in, and what starts inside on the way out, also if it only comes to rest on
+// Where both sides count: what ends inside was hit on the way in, and what starts inside on the way out, also if it
+// only comes to rest on
 // the surface. Leaks::none_from_any... tried with fronts alone never saw a passage from the back.
 TYPED_TEST(Leaks, none_either_way_where_both_sides_count) {
     std::int64_t in = 0;
@@ -118,7 +121,8 @@ TYPED_TEST(Leaks, none_either_way_where_both_sides_count) {
     EXPECT_GT(out, 50'000);
 }
 
-// The rules on 1.2 million steps of lattice walks around random polycubes. A walk starts outside and goes wherever the rule
+// The rules on 1.2 million steps of lattice walks around random polycubes. A walk starts outside and goes wherever the
+// rule
 // sees no hit. `mixed` takes half-open plane sides from the first rule and tie-broken edges from the second.
 enum class Rule { closed, both, translated, mixed };
 

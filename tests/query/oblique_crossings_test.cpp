@@ -1,8 +1,11 @@
-// Crossings of oblique surfaces on a lattice, where nearly every segment is degenerate, against ends that are really moved.
+// Crossings of oblique surfaces on a lattice, where nearly every segment is degenerate, against ends that are really
+// moved.
 //
-// On polycubes every plane is parallel to an axis, its normal has one component, and the tie rule of planes, the sign of
+// On polycubes every plane is parallel to an axis, its normal has one component, and the tie rule of planes, the sign
+// of
 // normal . (e, e^2, e^3), can take the components in any order: code that took them backwards passed all tests. Here
-// are tetrahedra, octahedra and sheared boxes with whole-numbered corners, which share corners and planes, and single triangles.
+// are tetrahedra, octahedra and sheared boxes with whole-numbered corners, which share corners and planes, and single
+// triangles.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -98,7 +101,8 @@ struct Scene {
     }
 };
 
-// Solids that share corners, and so edges, planes and faces. All coordinates are even: the middle of an edge is on the lattice.
+// Solids that share corners, and so edges, planes and faces. All coordinates are even: the middle of an edge is on the
+// lattice.
 Scene closed_scene(Random& random) {
     Scene scene;
     std::vector<L> corners;
@@ -131,7 +135,8 @@ L special_point(const std::vector<T>& triangles, Random& random) {
     return p;
 }
 
-// Both ends at special places, or its middle at one; some start between two corners, and so inside of a solid if they are its.
+// Both ends at special places, or its middle at one; some start between two corners, and so inside of a solid if they
+// are its.
 std::array<L, 2> special_segment(const std::vector<T>& triangles, Random& random) {
     const L p = special_point(triangles, random);
     if (!triangles.empty() && random.chance(0.3)) {

@@ -1,4 +1,5 @@
-// A particle that is moved to each returned point and stepped again never leaves a closed mesh: gravity and reflection in a bowl,
+// A particle that is moved to each returned point and stepped again never leaves a closed mesh: gravity and reflection
+// in a bowl,
 // 240 steps, near and far from the origin, no skin anywhere.
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
@@ -14,7 +15,8 @@ struct Outcome {
     double travelled = 0;
 };
 
-// `inwards`: the faces look into the bowl and are hit from their front; else they look outwards and are hit from the back.
+// `inwards`: the faces look into the bowl and are hit from their front; else they look outwards and are hit from the
+// back.
 template <class Scalar>
 Outcome run(double offset, bool inwards, std::size_t particles) {
     const double radius = 100;

@@ -1,8 +1,12 @@
-// The place of a hit: stopped points can leave, are near the true one, do not lose a slide's way, do not creep; positions are correctly rounded.
+// The place of a hit: stopped points can leave, are near the true one, do not lose a slide's way, do not creep;
+// positions are correctly rounded.
 //
-// With points on the plane or nearer than a grain all of this went wrong, each in its own way: half of the landings on a floor at z = 100 were stuck
-// where both sides count; steps in a floor's plane stopped at their start; a slide by the book lost half of its way at offset 1000; particles came to
-// rest 4e-323 above the floor. The judges are rational numbers, the mesh itself (is there a clear place nearer?), and counters.
+// With points on the plane or nearer than a grain all of this went wrong, each in its own way: half of the landings on
+// a floor at z = 100 were stuck
+// where both sides count; steps in a floor's plane stopped at their start; a slide by the book lost half of its way at
+// offset 1000; particles came to
+// rest 4e-323 above the floor. The judges are rational numbers, the mesh itself (is there a clear place nearer?), and
+// counters.
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <pierce/pierce.h>
@@ -90,7 +94,8 @@ TEST(PlaceSoak, stopped_points_can_leave) {
     expect_landings_leave<double>(1'000'000, true);
 }
 
-// A floor whose corners are exactly in one plane, and steep walls on it; steps go exactly in the floor's plane, or all but.
+// A floor whose corners are exactly in one plane, and steep walls on it; steps go exactly in the floor's plane, or all
+// but.
 struct Grazing {
     TriangleSoup<float> soup;
     static V at(double i, double j) { return {3 * i, 5 * j, 2 * i - 7 * j}; }
@@ -255,7 +260,8 @@ TEST(Place, exact_positions_are_those_of_rational_numbers) {
     }
 }
 
-// Stop, take the normal's part off the velocity, go on: down an inclined plane, by the book. The share of the way that it keeps.
+// Stop, take the normal's part off the velocity, go on: down an inclined plane, by the book. The share of the way that
+// it keeps.
 double kept_of_a_slide(float offset, float degrees, float rate) {
     const float a = degrees * 3.14159265F / 180;
     TriangleSoup<float> soup;
@@ -320,7 +326,8 @@ TEST(Place, a_slide_by_the_book_keeps_its_way) {
             }
 }
 
-// Pushed into a floor and along it, step by step: it stays where it came to rest, and the exact room is not entered more and more.
+// Pushed into a floor and along it, step by step: it stays where it came to rest, and the exact room is not entered
+// more and more.
 template <class Scalar>
 void expect_rest(int steps, double height, const V& up) {
     const V middle(0, 0, height);
@@ -347,7 +354,8 @@ void expect_rest(int steps, double height, const V& up) {
     std::cout << "height " << height << ": exact room entered " << entries(halves[0]) << " and " << entries(halves[1]) << " times, values "
               << halves[1].exact_values << ", sides " << halves[1].exact_sides << '\n';
     EXPECT_LE(entries(halves[1]), entries(halves[0]) * 6 / 5 + 20);
-    // The decisions are double-double's. In double the fraction of a start so near takes one exact measure; on a tilted floor through the origin a position
+    // The decisions are double-double's. In double the fraction of a start so near takes one exact measure; on a tilted
+    // floor through the origin a position
     // close to 0 one more, and places as far off as the start, within what double-double tells, up to four exact sides.
     EXPECT_LE(halves[0].exact_decisions + halves[1].exact_decisions, static_cast<std::uint64_t>(steps) / 20);
     EXPECT_LE(static_cast<double>(entries(halves[0]) + entries(halves[1])), (sizeof(Scalar) == 4 ? 0.02 : 6.02) * steps);

@@ -1,4 +1,5 @@
-// The values of a hit are those of the true intersection, within the units in the last place that hit.h documents: against rational
+// The values of a hit are those of the true intersection, within the units in the last place that hit.h documents:
+// against rational
 // numbers, for float and double, on generic and on delicate pairs, whichever arithmetic they came from.
 #include <gtest/gtest.h>
 #include <pierce/pierce.h>
@@ -26,7 +27,8 @@ void check_values() {
     double weight = 0;
     double normal = 0;
     int hits = 0;
-    // Hits by the arithmetic that their values needed, and queries whose verified point needed the exact side of a plane.
+    // Hits by the arithmetic that their values needed, and queries whose verified point needed the exact side of a
+    // plane.
     int coarse = 0;
     int fine = 0;
     int exact_values = 0;

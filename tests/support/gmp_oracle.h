@@ -1,4 +1,5 @@
-// A judge for millions of decisions: the rule by determinants of exact integers in GMP. Rational arithmetic on coordinates that are all
+// A judge for millions of decisions: the rule by determinants of exact integers in GMP. Rational arithmetic on
+// coordinates that are all
 // multiples of one power of two, with that power divided out.
 #pragma once
 
@@ -31,7 +32,8 @@ class GmpOracle {
         const int to = -orientation(k_to, k_a, k_b, k_c);
         if (!(from >= 0 && to < 0) && !(from < 0 && to >= 0)) return 0;
         const int side = from >= 0 ? 1 : -1;
-        // The line from -> to passes an edge on its inner side if the tetrahedron of the four points is turned that way.
+        // The line from -> to passes an edge on its inner side if the tetrahedron of the four points is turned that
+        // way.
         for (const auto& [u, v] : {std::array{k_a, k_b}, {k_b, k_c}, {k_c, k_a}})
             if (-orientation(k_from, k_to, u, v) * side < 0) return 0;
         return side;

@@ -1,9 +1,13 @@
-// Crossings judged by really moving the ends: not by an infinitesimal (e, e^2, e^3) but by the one with e = 2^-14, which for small
+// Crossings judged by really moving the ends: not by an infinitesimal (e, e^2, e^3) but by the one with e = 2^-14,
+// which for small
 // integer coordinates is small enough to act the same. Plain signs of determinants in 128 bits; a tie is an error.
 //
-// Coordinates up to 32 in magnitude; lengths are in units of 2^-42, so that the move is (2^28, 2^14, 1). A determinant is its value V
-// for the ends as they are, times 2^42, plus w . (2^28, 2^14, 1), where w is a cross product of two differences: whole numbers of
-// magnitude at most 2 * 64^2 = 2^13. So 2^14 of the next component can't outweigh one of this, nor the rest V: the sign is that
+// Coordinates up to 32 in magnitude; lengths are in units of 2^-42, so that the move is (2^28, 2^14, 1). A determinant
+// is its value V
+// for the ends as they are, times 2^42, plus w . (2^28, 2^14, 1), where w is a cross product of two differences: whole
+// numbers of
+// magnitude at most 2 * 64^2 = 2^13. So 2^14 of the next component can't outweigh one of this, nor the rest V: the sign
+// is that
 // of the first that is not zero, as for the infinitesimal move.
 #pragma once
 
@@ -32,7 +36,8 @@ class MovedOracle {
         if (zero_area(t)) return 0;
         const int from = side(t, p);
         if (from == side(t, q)) return 0;
-        // Seen along the segment, it passes inside of each edge or outside of it: the tetrahedra are turned one way or the other.
+        // Seen along the segment, it passes inside of each edge or outside of it: the tetrahedra are turned one way or
+        // the other.
         for (std::size_t k = 0; k < 3; ++k)
             if (sign(volume(moved(p), moved(q), at(t[k]), at(t[(k + 1) % 3]))) == from) return 0;
         return from;
@@ -61,7 +66,8 @@ class MovedOracle {
     static Vector cross(const Vector& x, const Vector& y) {
         return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
     }
-    // Of a, b, c, d; positive with d in front of a, b, c. b - a, of two points that are both moved or both not, is taken in
+    // Of a, b, c, d; positive with d in front of a, b, c. b - a, of two points that are both moved or both not, is
+    // taken in
     // whole units: below 2^7 x 2^98 x 3, which fits.
     static Wide volume(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
         Vector unit = minus(b, a);

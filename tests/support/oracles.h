@@ -9,7 +9,8 @@
 
 namespace pierce::test {
 
-/// The rule by CGAL 5.5, exact predicates on doubles. For a triangle of area zero or a segment of length zero CGAL's answers are
+/// The rule by CGAL 5.5, exact predicates on doubles. For a triangle of area zero or a segment of length zero CGAL's
+/// answers are
 /// undefined: `defined` says whether the pair is neither.
 class CgalOracle {
   public:
@@ -35,7 +36,8 @@ class CgalOracle {
     P from_, to_, a_, b_, c_;
 };
 
-/// The rule by construction in rational numbers: the point where the line meets the plane, and its barycentric coordinates in
+/// The rule by construction in rational numbers: the point where the line meets the plane, and its barycentric
+/// coordinates in
 /// the projection along the largest component of the normal. Total, and slow.
 class RationalOracle {
   public:

@@ -1,4 +1,5 @@
-// An operator new that tells the program of every call, which may count it or throw. For executables of their own: each has one.
+// An operator new that tells the program of every call, which may count it or throw. For executables of their own: each
+// has one.
 #pragma once
 
 #include <cstddef>

@@ -29,7 +29,8 @@ enum class Family { random, at_edge, at_vertex, coplanar, touching, sliver, latt
 constexpr std::array<std::string_view, static_cast<std::size_t>(Family::count)> k_family_names = {
     "random", "at_edge", "at_vertex", "coplanar", "touching", "sliver", "lattice", "degenerate", "near_parallel"};
 
-/// The same shape everywhere: made around the origin at size 1, scaled, shifted by `offset` along a random direction, then every
+/// The same shape everywhere: made around the origin at size 1, scaled, shifted by `offset` along a random direction,
+/// then every
 /// coordinate is rounded to `Scalar`.
 template <class Scalar>
 Pair make_pair_of(Family family, double scale, double offset, Random& random) {

@@ -1,4 +1,5 @@
-// Seeded random numbers that are the same on every machine: std::mt19937_64 is fixed by the standard, its distributions are not.
+// Seeded random numbers that are the same on every machine: std::mt19937_64 is fixed by the standard, its distributions
+// are not.
 #pragma once
 
 #include <cstdint>

@@ -26,8 +26,10 @@ struct Extent {
     Vec3<double> high;
 };
 
-/// One segment of a mixture: lengths from a ten-thousandth of the diagonal to twice the diagonal; a third each aimed at a point in a
-/// face, at one on an edge or vertex (as exactly as coordinates allow), and placed anywhere in the box; some end exactly on their
+/// One segment of a mixture: lengths from a ten-thousandth of the diagonal to twice the diagonal; a third each aimed at
+/// a point in a
+/// face, at one on an edge or vertex (as exactly as coordinates allow), and placed anywhere in the box; some end
+/// exactly on their
 /// target, some start there, some are parallel to an axis or lie in the plane of a face.
 template <class Scalar>
 Segment<Scalar> mixed_segment(const MeshView<Scalar>& mesh, const Extent<Scalar>& extent, Random& random) {

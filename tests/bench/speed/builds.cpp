@@ -10,7 +10,8 @@
 namespace pierce::bench {
 namespace {
 
-/// Large blocks come from the system and go back to it: glibc's values for a new program, which it would otherwise adapt.
+/// Large blocks come from the system and go back to it: glibc's values for a new program, which it would otherwise
+/// adapt.
 void use_fresh_memory() {
     constexpr int k_large = 128 * 1024;
     mallopt(M_MMAP_MAX, 65536);
