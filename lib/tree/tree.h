@@ -21,7 +21,8 @@ struct Tree {
     unsigned depth = 0;  ///< nodes on the longest path from the root
 
     [[nodiscard]] TreeView view() const { return {nodes.data(), root, coarse}; }
-    [[nodiscard]] std::size_t bytes() const { return nodes.bytes(); }
+    /// What lies behind the last node was never written, and takes no memory but its share of a page.
+    [[nodiscard]] std::size_t bytes() const { return node_count * sizeof(NodeBytes); }
 };
 
 }  // namespace pierce::detail

@@ -26,10 +26,10 @@ void expect_equal(const QueryCounters& x, const QueryCounters& y) {
 template <class Scalar>
 void expect_all_counted() {
     TriangleSoup<Scalar> soup = moved<Scalar>(bumpy_sphere(6), 1, {100, 0, 0});  // so that sides of points are close
-    // Two faces in one plane that share no corner: hits on them are ties that only exact arithmetic finds.
+    // Two faces in one tilted plane that share no corner: hits on them are ties that only exact arithmetic finds.
     const auto first = static_cast<std::uint32_t>(soup.positions.size());
     for (const auto& [x, y] : {std::pair{90, -10}, {110, -10}, {100, 10}, {91, -12}, {111, -9}, {99, 12}})
-        soup.positions.push_back({static_cast<Scalar>(x), static_cast<Scalar>(y), Scalar{5}});
+        soup.positions.push_back({static_cast<Scalar>(x), static_cast<Scalar>(y), static_cast<Scalar>(5 + (x - 100) * 0.25 + y * 0.5)});
     soup.triangles.push_back({first, first + 1, first + 2});
     soup.triangles.push_back({first + 3, first + 4, first + 5});
     // Two sheets at 45 degrees that meet above all this, in a valley: what comes down on one of them close to the
