@@ -10,17 +10,13 @@
 // within
 // 2^-52 (|x| + 2 |x + d|) of the exact one, which is part of `noise`.
 //
-// Where an end is further than k_far from the lattice's corner the segment is clipped. From the nearer end on, y + r e
-// with r in [0, 1] has left
-// [-1/8, 17/8] before r_in and after r_out; (bound - y) and the quotient round three times, so r is within 2^-50 of
-// itself, which moves a point by at
-// most 2^-50 (|y| + |e| r) < 2^-49 (|y| + 4): nothing that is within the eighth of the scene less the noise is lost if
-// that
-// is below 1/16, and what is lost in the place of the points is added to the noise. From a near end, |y| <= k_far, the
-// length
-// does not matter. Where both ends are far, the noise grows with the distance of the nearer one: from 2^30 scenes on
-// boxes
-// are told apart less and less well, and from 2^46 on everything is visited.
+// Where an end is further than k_far from the lattice's corner the segment is clipped. From the nearer end on, y + r e with
+// r in [0, 1] has left [-1/8, 17/8] before r_in and after r_out; (bound - y) and the quotient round three times, so r is
+// within 2^-50 of itself, which moves a point by at most 2^-50 (|y| + |e| r) < 2^-49 (|y| + 4): nothing that is within the
+// eighth of the scene less the noise is lost if that is below 1/16, and what is lost in the place of the points is added to
+// the noise. From a near end, |y| <= k_far, the length does not matter (k_overflows). Where both ends are far, the noise grows
+// with the distance of the nearer one: from 2^30 scenes on boxes are told apart less and less well, and from 2^46 on
+// everything is visited (k_beyond_all).
 #pragma once
 
 #include <cstdint>
@@ -35,9 +31,30 @@ constexpr double k_far = 8;
 /// overflow. Clipping does without it.
 constexpr double k_least_unit = 0x1p-1019;
 
+/// Ends that are both further away, in scene units, are near to everything.
+constexpr double k_beyond_all = 0x1p100;
+/// From here on products with the unit, of coordinates below 2^1024, overflow: the way is taken 2^-1100 times as long, and its
+/// parameters 2^1100 times as large. Its largest component is then 2^-102 or more, so it has passed the scene at a parameter
+/// below 2^204. What underflows of the others, 2^-603, leads no further than 2^-399 up to there.
+constexpr double k_overflows = 0x1p1000;
+
 template <class Wide>
 [[gnu::always_inline]] inline double magnitude(double x) {
     return __builtin_fabs(x);
+}
+
+/// A probe that comes near to everything at its start.
+template <class Wide, class Scalar>
+void visit_all(const Frame& frame, Probe<Scalar>& probe, double* moved_from, double* moved) {
+    probe.begin = 0;
+    probe.length = 1;
+    for (int k = 0; k < 3; ++k) {
+        probe.origin[k] = 0;
+        probe.direction[k] = 1;
+        probe.noise[k] = 0x1p100;
+        moved_from[k] = frame.low[k] / frame.unit;
+        moved[k] = 1 / frame.unit;
+    }
 }
 
 /// Clips. Returns false where nothing is left. `whole` has origin and direction of the whole segment.
@@ -55,15 +72,22 @@ template <class Wide, class Scalar>
         }
     }
     const int base = reach[0] <= reach[1] ? 0 : 1;
+    if (!(reach[base] <= k_beyond_all)) {
+        visit_all<Wide>(frame, probe, moved_from, moved);
+        return true;
+    }
+    const bool scaled = !(reach[1 - base] <= k_overflows);
+    const double half = scaled ? 0x1p-550 : 1;
     const double* y = ends[base];
     const double off = 0x1p-48 * (reach[base] + 8);
     const double wide = 0.125 + frame.noise + off;
     double in = 0;
-    double out = 1;
+    double out = scaled ? 0x1p1000 : 1;
     double e[3];
     for (int k = 0; k < 3; ++k) {
         // Halves: the difference of two doubles may be infinite.
-        e[k] = ((base == 0 ? to[k] : from[k]) * 0.5 - (base == 0 ? from[k] : to[k]) * 0.5) * frame.unit;
+        const double way = (base == 0 ? to[k] : from[k]) * 0.5 - (base == 0 ? from[k] : to[k]) * 0.5;
+        e[k] = (way * half) * (frame.unit * half);
         const double low = -wide;
         const double high = frame.high[k] - frame.low[k] + wide;
         if (e[k] == 0) {
@@ -79,11 +103,10 @@ template <class Wide, class Scalar>
     }
     in *= 1 - 0x1p-49;
     out *= 1 + 0x1p-49;
-    if (out > 1) out = 1;
+    if (!scaled && out > 1) out = 1;
     if (in > out) return false;
-    const double begin = base == 0 ? in : 1 - out;
-    probe.begin = begin;
-    probe.length = out - in;
+    probe.begin = base == 0 ? in * half * half : 1 - out * half * half;
+    probe.length = (out - in) * half * half;
     const double at = base == 0 ? in : out;
     const double sign = base == 0 ? 2 : -2;
     for (int k = 0; k < 3; ++k) {
