@@ -161,6 +161,12 @@ namespace {
 /// Up to which part an answer goes.
 enum class Until { filter, values, place, all };
 
+/// Nothing is in any way.
+struct FreeWays {
+    [[nodiscard]] bool clear(const Point&, bool) const { return true; }
+    [[nodiscard]] bool stops(const Point&, Corners&, Decision&) const { return false; }
+};
+
 template <Until until, class Scalar>
 void answer_until(const Scene<Scalar>& scene, const Path& path, const std::vector<TriangleRef>& triangles, const QueryOptions& options,
                   QueryCounters& counters, Hit<Scalar>& hit) {
@@ -179,8 +185,8 @@ void answer_until(const Scene<Scalar>& scene, const Path& path, const std::vecto
         const Measures measures = face.measures();
         report(measures, face.normal(), best.decision, scene.face_of_number(number), number, hit);
         if constexpr (until == Until::values) return;
-        const auto clear = [](const Point&, bool) { return true; };
-        place<Scalar>(path, corners_of(first.best_measured()), best.decision, scene.grain, measures.fraction, face, counters, clear, hit);
+        place<Scalar>(path, corners_of(first.best_measured()), best.decision, scene.grain, measures.fraction, face,
+                      counters, FreeWays{}, hit);
     }
 }
 
