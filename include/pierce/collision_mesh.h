@@ -77,10 +77,10 @@ class CollisionMesh {
     [[nodiscard]] std::optional<SweepHit<Scalar>> sweep(const Vec3<Scalar>& from, const Vec3<Scalar>& to,
                                                         const QueryOptions& options = {}) const noexcept;
 
-    /// Many queries in one call: `out[i]` is what the single query for number i gives, to the last bit, whatever the executor and however
-    /// the queries are cut into calls. Short segments are faster than by single calls where the mesh does not fit into the caches, up to
-    /// twice, since they wait for memory together. Returns the number of hits. Allocates nothing. `out` must be as long as the queries are many; if
-    /// it is not, std::invalid_argument is thrown.
+    /// Many queries in one call: `out[i]` is what the single query for number i gives, to the last bit, whatever the
+    /// executor and however the queries are cut into calls. With the tree sixteen queries go on together, each while others
+    /// wait for memory; where it has more than 16 nodes on a path, one after the other. Returns the number of hits. Allocates
+    /// nothing. `out` must be as long as the queries are many; if it is not, std::invalid_argument is thrown.
     std::size_t first_hits(std::span<const Segment<Scalar>> segments, std::span<std::optional<Hit<Scalar>>> out,
                            const BatchOptions& options = {}) const;
     std::size_t any_hits(std::span<const Segment<Scalar>> segments, std::span<std::uint8_t> out,

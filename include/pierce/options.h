@@ -31,7 +31,7 @@ struct BuildOptions {
     /// For the grid: an upper bound for its memory, kept by larger cells, down to what one cell for all needs. Zero
     /// stands for a multiple of the triangles' number.
     std::size_t max_grid_bytes = 0;
-    /// Which wide kernels to use: `sse2`, `avx2`, `neon`, `plain`. If it is empty, the environment variable PIERCE_BACKEND says, and
+    /// Which wide kernels to use: `avx512`, `avx2`, `sse2`, `neon`, `plain`. If it is empty, the environment variable PIERCE_BACKEND says, and
     /// without that the machine's fastest. Building throws std::invalid_argument where the machine has none of the name.
     std::string_view backend = {};
     /// Builds in parallel, if given.
@@ -49,7 +49,7 @@ struct QueryCounters {
     std::uint64_t exact_orders = 0;    ///< pairs of hits too close to be ordered without exact arithmetic
     std::uint64_t exact_values = 0;    ///< times that a hit's fraction and weights, or its normal, took exact arithmetic
     std::uint64_t exact_sides = 0;     ///< points so close to a face's plane that their side took exact arithmetic
-    std::uint64_t retreats = 0;        ///< points that had to be moved back before they were verified
+    std::uint64_t retreats = 0;        ///< places for verified points that were not clear
 };
 
 /// A hit before it is weighed against others: what `QueryOptions::accept` is asked about.
