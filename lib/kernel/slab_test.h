@@ -169,19 +169,23 @@ template <class Wide>
     return keys;
 }
 
+/// Of each place of a register the least of all groups.
 template <class Wide>
-[[gnu::always_inline]] inline std::uint32_t least_key(const Sixteen<Wide>& keys) {
+[[gnu::always_inline]] inline typename Wide::Float least_keys(const Sixteen<Wide>& keys) {
     typename Wide::Float least = keys.part[0];
     for (unsigned g = 1; g < Sixteen<Wide>::groups; ++g) least = Wide::least(least, keys.part[g]);
-    return Wide::least_of(least);
+    return least;
+}
+
+template <class Wide>
+[[gnu::always_inline]] inline std::uint32_t least_key(const Sixteen<Wide>& keys) {
+    return Wide::least_of(least_keys(keys));
 }
 
 /// 1 if there is one that was not taken.
 template <class Wide>
 [[gnu::always_inline]] inline unsigned any_key(const Sixteen<Wide>& keys) {
-    typename Wide::Float least = keys.part[0];
-    for (unsigned g = 1; g < Sixteen<Wide>::groups; ++g) least = Wide::least(least, keys.part[g]);
-    return Wide::bits(Wide::below(least, Wide::all(__builtin_inff()))) != 0 ? 1U : 0U;
+    return Wide::bits(Wide::below(least_keys(keys), Wide::all(__builtin_inff()))) != 0 ? 1U : 0U;
 }
 
 /// Takes a key out.

@@ -2,11 +2,34 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include <cluster/quad.h>
 #include <node.h>
 
 namespace pierce::detail {
+
+/// The bounds of child i in steps, rounded towards zero.
+template <class Bound>
+[[gnu::always_inline]] inline void write_bounds(Bound (&bounds)[6][k_children], unsigned i, const Quad<double>& low,
+                                                const Quad<double>& high) {
+    const IntQuad l = __builtin_convertvector(low, IntQuad);
+    const IntQuad h = __builtin_convertvector(high, IntQuad);
+    for (int k = 0; k < 3; ++k) {
+        bounds[2 * k][i] = static_cast<Bound>(l[k]);
+        bounds[2 * k + 1][i] = static_cast<Bound>(h[k]);
+    }
+}
+
+/// Places without a child, from `count` on, have a low bound above the high one.
+template <class Bound>
+void close_places(Bound (&bounds)[6][k_children], unsigned count) {
+    for (unsigned i = count; i < k_children; ++i)
+        for (int k = 0; k < 3; ++k) {
+            bounds[2 * k][i] = std::numeric_limits<Bound>::max();
+            bounds[2 * k + 1][i] = 0;
+        }
+}
 
 /// Bounds on the scene's lattice. x - low is within 2^-53 of itself, of at most 65536 steps, so within 2^-37 steps;
 /// dividing by a power of two
@@ -27,18 +50,9 @@ class Lattice {
             const Quad<double> low = (__builtin_convertvector(boxes[i].low, Quad<double>) - low_) * scale_ - 0x1p-30;
             const Quad<double> high =
                 (__builtin_convertvector(boxes[i].high, Quad<double>) - low_) * scale_ + (1 + 0x1p-30);
-            const IntQuad l = __builtin_convertvector(low, IntQuad);
-            const IntQuad h = __builtin_convertvector(high, IntQuad);
-            for (int k = 0; k < 3; ++k) {
-                node.bounds[2 * k][i] = static_cast<std::uint16_t>(l[k]);
-                node.bounds[2 * k + 1][i] = static_cast<std::uint16_t>(h[k]);
-            }
+            write_bounds(node.bounds, i, low, high);
         }
-        for (unsigned i = count; i < k_children; ++i)
-            for (int k = 0; k < 3; ++k) {
-                node.bounds[2 * k][i] = 65535;
-                node.bounds[2 * k + 1][i] = 0;
-            }
+        close_places(node.bounds, count);
     }
 
   private:
@@ -80,18 +94,9 @@ class OwnFrames {
             const QuadBox<double> box = relative(boxes[i]);
             const Quad<double> low = most((box.low - origin) / step - 0x1p-40, Quad<double>{});
             const Quad<double> high = (box.high - origin) / step + (1 + 0x1p-40);
-            const IntQuad l = __builtin_convertvector(low, IntQuad);
-            const IntQuad h = __builtin_convertvector(high, IntQuad);
-            for (int k = 0; k < 3; ++k) {
-                node.bounds[2 * k][i] = static_cast<std::uint8_t>(l[k]);
-                node.bounds[2 * k + 1][i] = static_cast<std::uint8_t>(h[k]);
-            }
+            write_bounds(node.bounds, i, low, high);
         }
-        for (unsigned i = count; i < k_children; ++i)
-            for (int k = 0; k < 3; ++k) {
-                node.bounds[2 * k][i] = 255;
-                node.bounds[2 * k + 1][i] = 0;
-            }
+        close_places(node.bounds, count);
     }
 
   private:

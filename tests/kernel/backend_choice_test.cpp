@@ -1,37 +1,20 @@
 // Which wide kernels work is for the caller to say, then for the environment; a name that the machine has no kernels
 // for is refused.
-#include <cstdlib>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <kernel/backends.h>
 #include <pierce/collision_mesh.h>
+#include <support/environment_variable.h>
 
 namespace pierce::test {
 namespace {
 
 using namespace detail;
 
-/// PIERCE_BACKEND with another value, or none, for as long as it lives.
-class Environment {
-  public:
-    explicit Environment(const char* value) {
-        if (const char* before = std::getenv(k_name)) before_ = before;
-        set(value);
-    }
-    ~Environment() { set(before_ ? before_->c_str() : nullptr); }
-    Environment(const Environment&) = delete;
-    Environment& operator=(const Environment&) = delete;
-
-  private:
-    static constexpr const char* k_name = "PIERCE_BACKEND";
-    static void set(const char* value) {
-        if (value != nullptr) setenv(k_name, value, 1);
-        else unsetenv(k_name);
-    }
-    std::optional<std::string> before_;
+struct Environment : EnvironmentVariable {
+    explicit Environment(const char* value) : EnvironmentVariable("PIERCE_BACKEND", value) {}
 };
 
 std::string chosen(std::string_view name) {

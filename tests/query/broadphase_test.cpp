@@ -1,12 +1,11 @@
 // Which broadphase there is, is for the caller to say, then for the environment; what it says of itself; and that its
 // options are checked.
-#include <cstdlib>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
+#include <support/environment_variable.h>
 #include <support/executors.h>
 #include <support/meshes.h>
 #include <support/segments.h>
@@ -14,24 +13,8 @@
 namespace pierce::test {
 namespace {
 
-/// PIERCE_BROADPHASE with another value, or none, for as long as it lives.
-class Environment {
-  public:
-    explicit Environment(const char* value) {
-        if (const char* before = std::getenv(k_name)) before_ = before;
-        set(value);
-    }
-    ~Environment() { set(before_ ? before_->c_str() : nullptr); }
-    Environment(const Environment&) = delete;
-    Environment& operator=(const Environment&) = delete;
-
-  private:
-    static constexpr const char* k_name = "PIERCE_BROADPHASE";
-    static void set(const char* value) {
-        if (value != nullptr) setenv(k_name, value, 1);
-        else unsetenv(k_name);
-    }
-    std::optional<std::string> before_;
+struct Environment : EnvironmentVariable {
+    explicit Environment(const char* value) : EnvironmentVariable("PIERCE_BROADPHASE", value) {}
 };
 
 Broadphase chosen(Broadphase wanted) {

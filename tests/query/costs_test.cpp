@@ -14,13 +14,6 @@ namespace {
 
 using V = Vec3<double>;
 
-template <class Scalar>
-void add(TriangleSoup<Scalar>& soup, const V& a, const V& b, const V& c) {
-    const auto first = static_cast<std::uint32_t>(soup.positions.size());
-    for (const V& p : {a, b, c}) soup.positions.push_back(p.cast<Scalar>());
-    soup.triangles.push_back({first, first + 1, first + 2});
-}
-
 // A cube of edge 1 from (low, low, low), each side n times n squares.
 template <class Scalar>
 TriangleSoup<Scalar> cube(double low, int n) {
@@ -40,8 +33,8 @@ TriangleSoup<Scalar> cube(double low, int n) {
                     const V b = high ? at(i + 1, j) : at(i, j + 1);
                     const V c = at(i + 1, j + 1);
                     const V d = high ? at(i, j + 1) : at(i + 1, j);
-                    add(soup, a, b, c);
-                    add(soup, a, c, d);
+                    add_triangle(soup, a, b, c);
+                    add_triangle(soup, a, c, d);
                 }
     return soup;
 }
@@ -74,10 +67,10 @@ std::uint64_t decisions_above_a_fan(int n, double base) {
     const auto rim = [&](int i, double z) { return V(std::cos(6.283185307179586 * (i % n) / n), std::sin(6.283185307179586 * (i % n) / n), z); };
     const double top = base + 10;
     for (int i = 0; i < n; ++i) {
-        add(soup, V(0, 0, base), rim(i + 1, base), rim(i, base));
-        add(soup, V(0, 0, top), rim(i, top), rim(i + 1, top));
-        add(soup, rim(i, base), rim(i + 1, base), rim(i + 1, top));
-        add(soup, rim(i, base), rim(i + 1, top), rim(i, top));
+        add_triangle(soup, V(0, 0, base), rim(i + 1, base), rim(i, base));
+        add_triangle(soup, V(0, 0, top), rim(i, top), rim(i + 1, top));
+        add_triangle(soup, rim(i, base), rim(i + 1, base), rim(i + 1, top));
+        add_triangle(soup, rim(i, base), rim(i + 1, top), rim(i, top));
     }
     const CollisionMesh<Scalar> mesh(soup.view());
     QueryCounters counters;
@@ -98,8 +91,8 @@ TEST(Costs, contains_above_a_wide_fan) {
 TEST(Costs, contains_beside_many_faces_seen_edge_on) {
     Random random(62);
     TriangleSoup<float> soup;
-    add(soup, V(-1, 0, 0), V(-1, 1, 0), V(-1, 0, 1));  // so that there is more of the axis in the mesh's box
-    for (int i = 0; i < 80'000; ++i) add(soup, V(random.unit(), 0, 0), V(random.unit(), 0, 0), V(random.unit(), random.unit(), random.unit()));
+    add_triangle(soup, V(-1, 0, 0), V(-1, 1, 0), V(-1, 0, 1));  // so that there is more of the axis in the mesh's box
+    for (int i = 0; i < 80'000; ++i) add_triangle(soup, V(random.unit(), 0, 0), V(random.unit(), 0, 0), V(random.unit(), random.unit(), random.unit()));
     const CollisionMesh<float> mesh(soup.view());
     std::uint64_t beside = 0;
     for (int i = 0; i < 100; ++i) {
@@ -129,7 +122,7 @@ TEST(Costs, one_large_triangle_beside_a_dense_part) {
     for (const bool large : {false, true}) {
         TriangleSoup<double> soup = bumpy_sphere(40);
         const double size = 1e10;
-        if (large) add(soup, V(-size, -size, -2), V(size, -size, -2), V(0, size, -2));
+        if (large) add_triangle(soup, V(-size, -size, -2), V(size, -size, -2), V(0, size, -2));
         const CollisionMesh<double> mesh(soup.view(), {.broadphase = Broadphase::tree});
         const CollisionMesh<double> twin(soup.view(), {.broadphase = Broadphase::grid});
         Random random(63);
@@ -163,7 +156,7 @@ TEST(Costs, all_hits_on_many_faces_in_one_place) {
             const auto some = [&](double x, double y) { return V(x + random.between(-by, by), y + random.between(-by, by), 0); };
             const V a = some(-1, -1);
             const V b = some(1, -1);
-            add(soup, a, b, some(0, 1));
+            add_triangle(soup, a, b, some(0, 1));
         }
         const CollisionMesh<float> mesh(soup.view());
         const Segment<float> segment{{0.1F, 0.05F, 1}, {-0.1F, -0.13F, -2}};

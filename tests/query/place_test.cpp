@@ -28,21 +28,14 @@ double largest_of(const TriangleSoup<Scalar>& soup) {
     return largest;
 }
 
-template <class Scalar>
-void add(TriangleSoup<Scalar>& soup, const V& a, const V& b, const V& c) {
-    const auto first = static_cast<std::uint32_t>(soup.positions.size());
-    for (const V& p : {a, b, c}) soup.positions.push_back(p.cast<Scalar>());
-    soup.triangles.push_back({first, first + 1, first + 2});
-}
-
 // A floor around `middle`; `walls`: with a second one that looks down, in the same place.
 template <class Scalar>
 TriangleSoup<Scalar> floor_at(const V& middle, const V& up, double size, bool walls) {
     TriangleSoup<Scalar> soup;
     const V x = up.unitOrthogonal() * size;
     const V y = up.cross(x);
-    add(soup, middle - x - y, middle + x - y, middle + x + y);
-    add(soup, middle - x - y, middle + x + y, middle - x + y);
+    add_triangle(soup, middle - x - y, middle + x - y, middle + x + y);
+    add_triangle(soup, middle - x - y, middle + x + y, middle - x + y);
     const std::size_t count = soup.triangles.size();
     for (std::size_t i = 0; walls && i < count; ++i) soup.triangles.push_back({soup.triangles[i][0], soup.triangles[i][2], soup.triangles[i][1]});
     return soup;
@@ -101,11 +94,11 @@ struct Grazing {
     static V at(double i, double j) { return {3 * i, 5 * j, 2 * i - 7 * j}; }
     Grazing() {
         const V n(-10, 21, 15);
-        add(soup, at(0, 0), at(400, 0), at(400, 400));
-        add(soup, at(0, 0), at(400, 400), at(0, 400));
+        add_triangle(soup, at(0, 0), at(400, 0), at(400, 400));
+        add_triangle(soup, at(0, 0), at(400, 400), at(0, 400));
         for (const double i : {300.0, 100.0}) {
-            add(soup, at(i, -50), V(at(i, 200) + 40 * n), at(i, 450));
-            add(soup, at(i, -50), at(i, 450), V(at(i, 200) - 40 * n));
+            add_triangle(soup, at(i, -50), V(at(i, 200) + 40 * n), at(i, 450));
+            add_triangle(soup, at(i, -50), at(i, 450), V(at(i, 200) - 40 * n));
         }
     }
     static Segment<float> step(Random& random) {
@@ -204,7 +197,7 @@ void expect_rounded_positions(int count) {
             const V p = size * random.in_cube() + middle;
             return whole ? V((p * 64 / size).array().round() * size / 64) : p;
         };
-        add(soup, some(), some(), some());
+        add_triangle(soup, some(), some(), some());
         const CollisionMesh<Scalar> mesh(soup.view());
         const V inside = (soup.positions[0] + soup.positions[1] + soup.positions[2]).template cast<double>() / 3;
         const V far = random.chance(0.3) ? V(1e6 * size * random.in_cube()) : some();

@@ -12,18 +12,12 @@ namespace {
 
 using V = Vec3<double>;
 
-void add(TriangleSoup<double>& soup, const V& a, const V& b, const V& c) {
-    const auto first = static_cast<std::uint32_t>(soup.positions.size());
-    for (const V& p : {a, b, c}) soup.positions.push_back(p);
-    soup.triangles.push_back({first, first + 1, first + 2});
-}
-
 // Above the edge from a to b one triangle; below it two, which meet at m. Each with vertices of its own.
 TriangleSoup<double> seam(const V& a, const V& m, const V& b, const V& up) {
     TriangleSoup<double> soup;
-    add(soup, a, b, a + up);
-    add(soup, m, a, m - up);
-    add(soup, b, m, m - up);
+    add_triangle(soup, a, b, a + up);
+    add_triangle(soup, m, a, m - up);
+    add_triangle(soup, b, m, m - up);
     return soup;
 }
 
@@ -102,12 +96,12 @@ TEST(TJunctions, a_hair_across_a_border_of_cells_are_found) {
     TriangleSoup<double> soup;
     std::size_t expected = 0;
     for (int rung = 0; rung <= k_rungs; ++rung) {
-        add(soup, V(-3000, rung, 0), V(3000, rung, 0), V(0, rung, 4));
+        add_triangle(soup, V(-3000, rung, 0), V(3000, rung, 0), V(0, rung, 4));
         for (const int way : {-1, 1}) {
             if (rung + way < 0 || rung + way > k_rungs) continue;  // so that the lowest and highest box end on a rung
             const double x = 500 * way;
             const double y = rung + way * 3 * 0x1p-23 * 3000;
-            add(soup, V(x, y, 0), V(x + 1, y, -1), V(x - 1, y, -1));
+            add_triangle(soup, V(x, y, 0), V(x + 1, y, -1), V(x - 1, y, -1));
             ++expected;
         }
     }

@@ -13,6 +13,7 @@
 #include <pierce/collision_mesh.h>
 #include <pierce/triangle_soup.h>
 #include <support/expect_hit.h>
+#include <support/meshes.h>
 #include <support/naive.h>
 #include <support/random.h>
 
@@ -53,9 +54,7 @@ struct Blades {
 
   private:
     void add(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c) {
-        const auto first = static_cast<std::uint32_t>(soup.positions.size());
-        for (const Vec3<double>& p : {a, b, c}) soup.positions.push_back(p.cast<Scalar>());
-        soup.triangles.push_back({first, first + 1, first + 2});
+        add_triangle(soup, a, b, c);
     }
 };
 

@@ -24,6 +24,14 @@ TriangleSoup<Scalar> moved(const TriangleSoup<double>& soup, double scale, const
     return out;
 }
 
+/// One more triangle, with corners of its own.
+template <class Scalar>
+void add_triangle(TriangleSoup<Scalar>& soup, const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c) {
+    const auto first = static_cast<std::uint32_t>(soup.positions.size());
+    for (const Vec3<double>& p : {a, b, c}) soup.positions.push_back(p.cast<Scalar>());
+    soup.triangles.push_back({first, first + 1, first + 2});
+}
+
 template <class Scalar>
 TriangleSoup<Scalar> turned_inside_out(TriangleSoup<Scalar> soup) {
     for (IndexTriple& t : soup.triangles) std::swap(t[1], t[2]);
