@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include <pierce/types.h>
+#include <pierce/sides.h>
 
 namespace pierce::detail {
 
@@ -17,12 +17,12 @@ struct Decision {
 };
 
 /// Whether ends on these sides pass the plane from its front: on the plane counts as in front.
-[[nodiscard]] constexpr bool passes_front(int from, int to) { return from >= 0 && to < 0; }
+[[nodiscard]] [[gnu::always_inline]] constexpr bool passes_front(int from, int to) { return from >= 0 && to < 0; }
 
 /// Whether they pass it from its back. On the plane counts as behind for `back`, which is `front` mirrored; for `both`
 /// as in
 /// front, so that a hit is a change of side: a point on the plane can leave it to the front.
-[[nodiscard]] constexpr bool passes_back(int from, int to, Sides sides) {
+[[nodiscard]] [[gnu::always_inline]] constexpr bool passes_back(int from, int to, Sides sides) {
     return sides == Sides::both ? from < 0 && to >= 0 : from <= 0 && to > 0;
 }
 
@@ -30,8 +30,8 @@ struct Decision {
 /// of the ends' sides;
 /// `weight(k)`: that of corner k's weight times their difference. It is asked only if it matters.
 template <class Weight>
-[[nodiscard]] Decision closed_rule(int from, int to, Sides sides, Weight&& weight) {
-    Decision decision;
+[[nodiscard]] [[gnu::always_inline]] inline Decision closed_rule(int from, int to, Sides sides, Weight&& weight) {
+    Decision decision{};
     const bool front = passes_front(from, to) && sides != Sides::back;
     const bool back = passes_back(from, to, sides) && sides != Sides::front;
     if (!front && !back) return decision;

@@ -4,8 +4,8 @@
 
 #include <cluster/record.h>
 #include <kernel/flight.h>
+#include <kernel/narrow.h>
 #include <kernel/probe.h>
-#include <kernel/refine_function.h>
 #include <node.h>
 
 namespace pierce::detail {
@@ -29,7 +29,7 @@ struct Backend {
     const char* name;
     ScalarKernels<float> of_floats;
     ScalarKernels<double> of_doubles;
-    const Refine* refine;
+    const Narrow* narrow;
 
     template <class Scalar>
     [[nodiscard]] const ScalarKernels<Scalar>& of() const {

@@ -4,6 +4,6 @@
 
 namespace pierce::detail {
 
-constinit const Backend k_avx2 = backend_named<Avx2>("avx2", k_refine_fused);
+constinit const Backend k_avx2 = backend_named<Avx2>("avx2", k_narrow_fused);
 
 }  // namespace pierce::detail

@@ -51,6 +51,6 @@ struct Avx512 {
 
 }  // namespace
 
-constinit const Backend k_avx512 = backend_named<Avx2, Avx512>("avx512", k_refine_fused);
+constinit const Backend k_avx512 = backend_named<Avx2, Avx512>("avx512", k_narrow_fused);
 
 }  // namespace pierce::detail

@@ -2,32 +2,18 @@
 // the first two.
 //
 // Bloom's inequalities (2002, "Fast ray tri (with precomputation)", with the signs of one line put right), on volumes
-// in place of
-// stored planes, as in Moller and Trumbore 1997: nothing is stored but the corners, so the build has no planes to make
-// exact, and
-// half of the memory is left to caches. Measured against Bloom's planes: README.md, "The narrow phase". FilterVolumes
-// and bounds: meeting.h.
+// in place of stored planes, as in Moller and Trumbore 1997: nothing is stored but the corners, so the build has no
+// planes to make exact, and half of the memory is left to caches. Measured against Bloom's planes: README.md, "The
+// narrow phase". Volumes and bounds: meeting.h.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include <decision.h>
+#include <kernel/four.h>
 #include <kernel/meeting.h>
-#include <point.h>
+#include <kernel/verdict.h>
+#include <path.h>
 
 namespace pierce::detail {
-
-enum class Verdict : std::uint8_t { miss, doubtful, hit };
-
-struct Filtered {
-    Verdict verdict;
-    /// For a hit.
-    Decision decision = {};
-    /// An interval that contains the exact fraction of the line, for a hit and for what is doubtful.
-    double earliest = 0;
-    double latest = 1;
-};
 
 /// The volumes of a triangle and a path. `Scalar`: what the coordinates were.
 template <class Scalar>
@@ -46,82 +32,87 @@ void measure_path(const Corners& corners, const Path& path, Measured& measured) 
     return {Point{ba.x[1], ba.y[1], ba.z[1]}, {ba.x[0], ba.y[0], ba.z[0]}, {ct.x[0], ct.y[0], ct.z[0]}};
 }
 
-/// How far the volumes may be off.
-struct VolumeErrors {
-    /// `u`: the unit of the volumes' numbers.
-    explicit VolumeErrors(const Measured& x, double u = Arithmetic<double>::unit) {
-        const Pair sb = both(9 * u) * x.bar_sb;
-        const Pair vc = both(9 * u) * x.bar_vc;
-        s = sb[0], b = sb[1], v = vc[0], c = vc[1];
-        a = 12 * u * (x.bar_sb[0] + x.bar_sb[1] + x.bar_vc[1]);
-        end = 10 * u * (x.bar_sb[0] + x.bar_vc[0]);
-    }
-    double s, v, a, b, c, end;
+/// Six volumes, or how far they may be off: (s, b, v, c), and (a, end | -, -) with end = v - s.
+template <class Four>
+struct FilterVolumes {
+    Four sbvc;
+    Four ends;
 };
 
-/// The volumes, and those that are differences of others.
-struct FilterVolumes {
-    explicit FilterVolumes(const Measured& x) : s(x.s()), v(x.v()), b(x.b()), c(x.c()), a(s - b - c), end(v - s) {}
-    FilterVolumes(double s_, double v_, double b_, double c_, double a_, double end_)
-        : s(s_), v(v_), b(b_), c(c_), a(a_), end(end_) {}
-    double s, v, b, c, a, end;
-};
+template <class Four>
+[[nodiscard]] [[gnu::always_inline]] inline FilterVolumes<Four> volumes_of(const Measured& x) {
+    const Pair vc = reinterpret_cast<Pair>(reinterpret_cast<PairMask>(x.meeting.vc) ^
+                                           reinterpret_cast<PairMask>(Pair{0.0, -0.0}));
+    return {Four::of(x.meeting.sb, vc), Four::of(Pair{x.s() - x.b() - x.c(), x.v() - x.s()}, Pair{})};
+}
+
+/// `u`: the unit of the volumes' numbers.
+template <class Four>
+[[nodiscard]] [[gnu::always_inline]] inline FilterVolumes<Four> errors_of(const Measured& x,
+                                                                    double u = Arithmetic<double>::unit) {
+    const double a = 12 * u * (x.bar_sb[0] + x.bar_sb[1] + x.bar_vc[1]);
+    const double end = 10 * u * (x.bar_sb[0] + x.bar_vc[0]);
+    return {Four::all(9 * u) * Four::of(x.bar_sb, x.bar_vc), Four::of(Pair{a, end}, Pair{})};
+}
 
 /// An interval for v / s; the whole of [0, 1] where s says nothing. (Three roundings on either side.)
-inline void set_interval(const FilterVolumes& x, const VolumeErrors& e, Filtered& filtered) {
-    const double s = std::abs(x.s);
-    const double v = std::abs(x.v);
-    if (!(s > e.s)) return;
-    const Pair quotients = Pair{v - e.v, v + e.v} / Pair{s + e.s, s - e.s};
-    filtered.earliest = quotients[0] * (1 - 0x1p-49);
-    filtered.latest = quotients[1] * (1 + 0x1p-49);
+[[gnu::always_inline]] inline void set_interval(double s, double v, double es, double ev, Filtered& filtered) {
+    filtered.earliest = 0;
+    filtered.latest = 1;
+    if (!(s > es)) return;
+    const Pair quotients = Pair{v - ev, v + ev} / Pair{s + es, s - es} * Pair{1 - 0x1p-49, 1 + 0x1p-49};
+    filtered.earliest = quotients[0];
+    filtered.latest = quotients[1];
 }
 
 /// Strict inequalities between exact values: a hit touches neither an edge nor a plane, so the closed rule and every
-/// perturbation of it agree. A miss
-/// does not even touch.
-[[nodiscard]] inline Filtered filter_volumes(const FilterVolumes& x, const VolumeErrors& e, Sides sides) {
-    const double v = x.v;
-    const double end = x.end;
-    const bool front = sides != Sides::back && !(v > e.v) && !(end < -e.end);
-    const bool back = sides != Sides::front && !(v < -e.v) && !(end > e.end);
-    if (!front && !back) return {Verdict::miss};
-    const double b = x.b;
-    const double c = x.c;
-    const double a = x.a;
-    const auto any = [](bool p, bool q, bool r) {
-        return static_cast<int>(p) | static_cast<int>(q) | static_cast<int>(r);
-    };
-    if ((!front || any(a > e.a, b > e.b, c > e.c) != 0) && (!back || any(a < -e.a, b < -e.b, c < -e.c) != 0))
-        return {Verdict::miss};
-
-    Filtered filtered{Verdict::doubtful};
-    set_interval(x, e, filtered);
-    if (front && back) return filtered;  // both ends may lie in the plane
-    const double sign = front ? -1 : 1;
-    if (any(!(sign * a > e.a), !(sign * b > e.b), !(sign * c > e.c)) != 0 || !(sign * v > e.v) ||
-        !(sign * end < -e.end))
-        return filtered;
+/// perturbation of it agree. A miss does not even touch.
+template <class Four>
+[[gnu::always_inline]] inline void filter_volumes(const FilterVolumes<Four>& x, const FilterVolumes<Four>& e, Sides sides,
+                                                  Filtered& filtered) {
+    // Bits of volumes that are certainly positive, and negative. None is either where it is NaN.
+    constexpr unsigned k_b = 2;
+    constexpr unsigned k_v = 4;
+    constexpr unsigned k_c = 8;
+    constexpr unsigned k_a = 16;
+    constexpr unsigned k_end = 32;
+    constexpr unsigned k_weights = k_a | k_b | k_c;
+    const unsigned plus = Four::signs(Four::less(e.sbvc, x.sbvc)) | Four::signs(Four::less(e.ends, x.ends)) << 4;
+    const unsigned minus = Four::signs(Four::less(x.sbvc, -e.sbvc)) | Four::signs(Four::less(x.ends, -e.ends)) << 4;
+    const bool front = sides != Sides::back && (plus & k_v) == 0 && (minus & k_end) == 0;
+    const bool back = sides != Sides::front && (minus & k_v) == 0 && (plus & k_end) == 0;
+    // (Weights of a front hit have the sign of s, which is < 0.)
+    if ((!front || (plus & k_weights) != 0) && (!back || (minus & k_weights) != 0)) {
+        filtered.verdict = Verdict::miss;
+        return;
+    }
+    set_interval(magnitude_of(Four::lane(x.sbvc, 0)), magnitude_of(Four::lane(x.sbvc, 2)), Four::lane(e.sbvc, 0),
+                 Four::lane(e.sbvc, 2), filtered);
+    const bool inside = front ? (minus & (k_v | k_weights)) == (k_v | k_weights) && (plus & k_end) != 0
+                              : (plus & (k_v | k_weights)) == (k_v | k_weights) && (minus & k_end) != 0;
+    filtered.verdict = Verdict::doubtful;
+    if (!inside) return;  // where front and back are left, both ends may lie in the plane
     filtered.verdict = Verdict::hit;
-    filtered.decision.hit = true;
-    filtered.decision.side = front ? Sides::front : Sides::back;
-    return filtered;
+    filtered.decision = Decision{.hit = true, .side = front ? Sides::front : Sides::back};
 }
 
-[[nodiscard]] inline Filtered filter_strictly(const Measured& x, const VolumeErrors& e, Sides sides) {
-    return x.tame ? filter_volumes(FilterVolumes(x), e, sides) : Filtered{Verdict::doubtful};
+template <class Four = TwoPairs>
+[[nodiscard]] [[gnu::always_inline]] inline Filtered filter_strictly(const Measured& x, Sides sides) {
+    Filtered filtered{Verdict::doubtful};
+    if (x.tame) filter_volumes(volumes_of<Four>(x), errors_of<Four>(x), sides, filtered);
+    return filtered;
 }
 
 /// The closed rule where some volumes are certainly 0, as those of planes, edges and starts along axes are: each
 /// product in them is.
-[[nodiscard]] [[gnu::noinline]] inline Verdict settle(const Measured& x, const VolumeErrors& e, Sides sides,
-                                                      Decision& decision) {
+[[nodiscard]] [[gnu::always_inline]] inline Verdict settle(const Measured& x, Sides sides, Decision& decision) {
     constexpr int k_unknown = 2;
-    const auto sign = [](double y, double bound) {
+    constexpr double u = Arithmetic<double>::unit;
+    const auto sign = [](double y, double bound) __attribute__((always_inline)) {
         return y > bound ? 1 : y < -bound ? -1 : bound == 0 ? 0 : k_unknown;
     };
-    const int v = sign(x.v(), e.v);
-    const int end = sign(x.v() - x.s(), e.end);
+    const int v = sign(x.v(), 9 * u * x.bar_vc[0]);
+    const int end = sign(x.v() - x.s(), 10 * u * (x.bar_sb[0] + x.bar_vc[0]));
     if (v == k_unknown || end == k_unknown) return Verdict::doubtful;
     if (!(passes_front(-v, -end) && sides != Sides::back) && !(passes_back(-v, -end, sides) && sides != Sides::front))
         return Verdict::miss;
@@ -133,31 +124,28 @@ inline void set_interval(const FilterVolumes& x, const VolumeErrors& e, Filtered
     const Triple<double> bc = {ba.x[0] - ct.x[0], ba.y[0] - ct.y[0], ba.z[0] - ct.z[0]};
     const Triple<double> ob = {ba.x[0] - af.x[1], ba.y[0] - af.y[1], ba.z[0] - af.z[1]};
     const Triple<double> d = {x.meeting.qd.x[1], x.meeting.qd.y[1], x.meeting.qd.z[1]};
-    const auto size = [](const Triple<double>& y) {
-        return Triple<double>{std::abs(y.x), std::abs(y.y), std::abs(y.z)};
-    };
-    const double bar = dot(size(bc), cross_of_magnitudes(size(ob), size(d)));
-    const int own = sign(dot(bc, cross(ob, d)), 9 * Arithmetic<double>::unit * bar);
-    const int weights[3] = {own != k_unknown ? own : sign(x.s() - x.b() - x.c(), e.a), sign(x.b(), e.b),
-                            sign(x.c(), e.c)};
-    // Where one has the wrong sign it is a miss, whatever the others are. (A weight of the front has the sign of s,
-    // which is < 0.)
+    const double bar = dot(magnitudes_of(bc), cross_of_magnitudes(magnitudes_of(ob), magnitudes_of(d)));
+    const int own = sign(dot(bc, cross(ob, d)), 9 * u * bar);
+    const double ea = 12 * u * (x.bar_sb[0] + x.bar_sb[1] + x.bar_vc[1]);
+    const int weights[3] = {own != k_unknown ? own : sign(x.s() - x.b() - x.c(), ea), sign(x.b(), 9 * u * x.bar_sb[1]),
+                            sign(x.c(), 9 * u * x.bar_vc[1])};
+    // Where one has the wrong sign it is a miss, whatever the others are.
     bool unknown = false;
     for (const int w : weights) {
         if (w == (end > 0 ? 1 : -1)) return Verdict::miss;
         unknown = unknown || w == k_unknown;
     }
     if (unknown) return Verdict::doubtful;
-    decision = closed_rule(-v, -end, sides, [&weights](int k) { return -weights[k]; });
+    decision = closed_rule(-v, -end, sides, [&weights](int k) __attribute__((always_inline)) { return -weights[k]; });
     return decision.hit ? Verdict::hit : Verdict::miss;
 }
 
 /// Never wrong about a hit, with its side and feature, or a miss by the closed rule.
-[[nodiscard]] inline Filtered filter(const Measured& x, Sides sides) {
-    const VolumeErrors errors(x);
-    Filtered filtered = filter_strictly(x, errors, sides);
+template <class Four = TwoPairs>
+[[nodiscard]] [[gnu::always_inline]] inline Filtered filter(const Measured& x, Sides sides) {
+    Filtered filtered = filter_strictly<Four>(x, sides);
     if (filtered.verdict != Verdict::doubtful || !x.tame) return filtered;
-    filtered.verdict = settle(x, errors, sides, filtered.decision);
+    filtered.verdict = settle(x, sides, filtered.decision);
     if (filtered.decision.at_start) filtered.earliest = filtered.latest = 0;
     return filtered;
 }

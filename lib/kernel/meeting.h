@@ -82,7 +82,8 @@ struct Measured {
     [[nodiscard]] [[gnu::always_inline]] double c() const { return -meeting.vc[1]; }
 };
 
-[[nodiscard]] [[gnu::always_inline]] inline Triple<Pair> magnitudes_of(const Triple<Pair>& x) {
+template <class Number>
+[[nodiscard]] [[gnu::always_inline]] inline Triple<Number> magnitudes_of(const Triple<Number>& x) {
     return {magnitude_of(x.x), magnitude_of(x.y), magnitude_of(x.z)};
 }
 

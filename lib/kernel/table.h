@@ -31,8 +31,8 @@ struct KernelsOf {
 };
 
 template <class Wide, class Flights = Wide>
-constexpr Backend backend_named(const char* name, const Refine& refine = k_refine) {
-    return {name, KernelsOf<Wide, Flights, float>::table(), KernelsOf<Wide, Flights, double>::table(), &refine};
+constexpr Backend backend_named(const char* name, const Narrow& narrow = k_narrow) {
+    return {name, KernelsOf<Wide, Flights, float>::table(), KernelsOf<Wide, Flights, double>::table(), &narrow};
 }
 
 }  // namespace

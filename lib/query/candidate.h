@@ -3,17 +3,14 @@
 
 #include <exact/decide.h>
 #include <exact/fraction.h>
+#include <kernel/filter.h>
 #include <query/scene.h>
 
 namespace pierce::detail {
 
-struct Candidate {
+struct Candidate : Filtered {
     TriangleRef triangle;
-    Decision decision;
-    /// An interval that contains the exact fraction.
-    double earliest = 0;
-    double latest = 1;
-    std::uint32_t place = 0;  ///< of its volumes, in a shortlist
+    Measured measured;  ///< by the path that hits it
 };
 
 /// Whether x comes before y: by the exact fraction, then the caller's face number, then the triangle.

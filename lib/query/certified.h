@@ -16,53 +16,52 @@ template <class Scalar>
 
 /// Whether the caller's own test takes a hit; `accept` must be given.
 template <class Scalar>
-[[nodiscard]] bool accepted(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate,
-                            const Measured& measured, const QueryOptions& options, QueryCounters& counters) {
-    CertifiedFace<double> face(path, measured, candidate.decision, *scene.backend->refine, counters);
-    const Measures measures = face.measures();
+[[nodiscard]] bool accepted(const Scene<Scalar>& scene, const Path& path, TriangleRef triangle,
+                            const Decision& decision, const Measured& measured, const QueryOptions& options,
+                            QueryCounters& counters) {
+    const Measures measures = fine_measures(scene.narrow(), measured, path, decision, counters);
     const Point& w = measures.barycentric;
-    return options.accept({scene.face_of(candidate.triangle),
-                           scene.number_of(candidate.triangle),
-                           candidate.decision.side,
-                           candidate.decision.feature,
-                           candidate.decision.feature_index,
-                           candidate.decision.at_start,
+    return options.accept({scene.face_of(triangle),
+                           scene.number_of(triangle),
+                           decision.side,
+                           decision.feature,
+                           decision.feature_index,
+                           decision.at_start,
                            measures.fraction,
                            {w[0], w[1], w[2]}});
 }
 
-/// All that is certified about a triangle that the wide kernels leave: whether it is hit, sides of its plane, values.
-/// (A policy, so that
-/// the benchmark can put another in its place and measure what certainty costs.)
+/// All that is certified about a triangle that the wide kernels leave: whether it is hit, and its values. (A policy, so
+/// that the benchmark can put another in its place and measure what certainty costs.)
 struct Certified {
-    /// Whether the path hits, unless the hit lies beyond `limit`. `measured` is set in any case.
+    /// Whether the path hits, unless the hit lies beyond `limit`.
     template <class Scalar>
-    static bool test(const Corners& corners, TriangleRef triangle, const Path& path, Sides sides, double limit,
-                     QueryCounters& counters, Measured& measured, Candidate& candidate) {
-        measure_path<Scalar>(corners, path, measured);
-        Filtered filtered = filter(measured, sides);
-        if (filtered.verdict == Verdict::miss || filtered.earliest > limit) return false;
-        if (filtered.verdict == Verdict::doubtful && !decided(corners, path, sides, measured, counters, filtered))
-            return false;
+    static bool test(const Scene<Scalar>& scene, TriangleRef triangle, const Path& path, Sides sides, double limit,
+                     QueryCounters& counters, Candidate& candidate) {
         candidate.triangle = triangle;
-        candidate.decision = filtered.decision;
-        candidate.earliest = filtered.earliest;
-        candidate.latest = filtered.latest;
-        return true;
+        scene.narrow().filter(scene.row(triangle), path.from.data(), path.to.data(), sides, candidate,
+                              candidate.measured);
+        if (candidate.verdict == Verdict::miss || candidate.earliest > limit) return false;
+        return candidate.verdict == Verdict::hit || decided(path, sides, candidate.measured, counters, candidate);
     }
 
-    /// Normal, values and place of one that is hit.
+    /// Values of one that is hit, and the first place to be tried for its point.
     template <class Scalar>
-    using Face = CertifiedFace<Scalar>;
+    static void certify(const Scene<Scalar>& scene, const Candidate& candidate, const Path& path,
+                        QueryCounters& counters, Values& values, Rounded<Scalar>& rounded) {
+        detail::certify(scene.narrow(), candidate.measured, path, candidate.decision, scene.grain, counters, values,
+                        rounded);
+    }
 
   private:
-    [[gnu::noinline]] static bool decided(const Corners& corners, const Path& path, Sides sides,
-                                          const Measured& measured, QueryCounters& counters, Filtered& filtered) {
+    [[gnu::noinline]] static bool decided(const Path& path, Sides sides, const Measured& measured,
+                                          QueryCounters& counters, Filtered& filtered) {
         const Filtered finer = finer_filter(measured, sides);
         if (finer.verdict != Verdict::doubtful) {
             filtered = finer;
             return finer.verdict == Verdict::hit;
         }
+        const Corners corners = corners_of(measured);
         ++counters.exact_decisions;
         filtered.decision = decide(path, corners, sides);
         if (!filtered.decision.hit) return false;

@@ -11,14 +11,8 @@
 namespace pierce::detail {
 
 /// The triangles that the wide kernels left; if `complete`, all that could stop a point on a way within
-/// `Scene::near_bound`
-/// of the path, so that the verified point needs no second traversal. Of the first `k_measured` it keeps the volumes,
-/// and of the
-/// best candidate, wherever it comes.
-template <unsigned most_measured>
+/// `Scene::near_bound` of the path, so that the verified point needs no second traversal.
 struct Shortlist {
-    static constexpr unsigned k_measured = most_measured;
-
     void add(TriangleRef triangle) {
         if (count == triangles.size())
             complete = false;
@@ -27,28 +21,20 @@ struct Shortlist {
     }
 
     std::array<TriangleRef, 64> triangles;
-    std::array<Measured, k_measured + 2> measured;
     unsigned count = 0;
     bool complete = true;
 };
 
 /// Keeps the hit that comes before all others.
-template <class Scalar, unsigned most_measured = 8>
+template <class Scalar>
 class First {
   public:
-    using List = Shortlist<most_measured>;
-
     First(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters)
         : scene_(scene), path_(path), counters_(counters) {}
 
     [[nodiscard]] double limit() const { return best().latest; }
     [[nodiscard]] bool wants(TriangleRef) const { return true; }
     [[nodiscard]] Candidate& room() { return candidates_[1 - best_]; }
-    [[nodiscard]] Measured& measured() {
-        const std::size_t place = list_.count < List::k_measured ? list_.count : List::k_measured + 1 - best_;
-        room().place = static_cast<std::uint32_t>(place);
-        return list_.measured[place];
-    }
     void seen(TriangleRef triangle) { list_.add(triangle); }
     void add() {
         if (found_ && !comes_before(scene_, path_, room(), best(), counters_)) return;
@@ -57,8 +43,7 @@ class First {
     }
     [[nodiscard]] bool found() const { return found_; }
     [[nodiscard]] const Candidate& best() const { return candidates_[best_]; }
-    [[nodiscard]] const Measured& best_measured() const { return list_.measured[best().place]; }
-    [[nodiscard]] const List& list() const { return list_; }
+    [[nodiscard]] const Shortlist& list() const { return list_; }
 
   private:
     const Scene<Scalar>& scene_;
@@ -67,7 +52,7 @@ class First {
     std::array<Candidate, 2> candidates_;
     std::size_t best_ = 0;
     bool found_ = false;
-    List list_;
+    Shortlist list_;
 };
 
 /// The first but those of one triangle and those that `passed(triangle)` says are known already.
@@ -97,7 +82,6 @@ class Any {
     [[nodiscard]] double limit() const { return found_ ? -1 : 1; }
     [[nodiscard]] bool wants(TriangleRef triangle) const { return !found_ && triangle != own_; }
     [[nodiscard]] Candidate& room() { return candidate_; }
-    [[nodiscard]] Measured& measured() { return measured_; }
     void seen(TriangleRef) {}
     void add() { found_ = !passed_(candidate_.triangle); }
     [[nodiscard]] bool found() const { return found_; }
@@ -107,7 +91,6 @@ class Any {
     TriangleRef own_;
     Candidate candidate_;
     bool found_ = false;
-    Measured measured_;
 };
 
 /// Counts every hit and keeps the first ones in `out`: as a heap with the last of them on top (Williams 1964), so that
@@ -122,7 +105,6 @@ class All {
     [[nodiscard]] double limit() const { return 1; }
     [[nodiscard]] bool wants(TriangleRef) const { return true; }
     [[nodiscard]] Candidate& room() { return candidate_; }
-    [[nodiscard]] Measured& measured() { return measured_; }
     void seen(TriangleRef) {}
     void add() {
         ++total_;
@@ -140,19 +122,20 @@ class All {
     [[nodiscard]] std::size_t total() const { return total_; }
     [[nodiscard]] std::size_t kept_count() const { return kept_; }
 
-    /// A kept hit as a candidate again: its fraction was rounded to `Scalar` on top.
+    /// A kept hit as a candidate again, but for what was measured: its fraction was rounded to `Scalar` on top.
     [[nodiscard]] static Candidate candidate_of(const Hit<Scalar>& hit) {
         const auto fraction = static_cast<double>(hit.exact_fraction);
         const double slack = fraction * static_cast<double>(std::numeric_limits<Scalar>::epsilon()) * 2 +
                              static_cast<double>(std::numeric_limits<Scalar>::denorm_min()) * 4;
-        return {{hit.triangle, hit.face},
-                {.hit = true,
-                 .side = hit.side,
-                 .feature = hit.feature,
-                 .feature_index = hit.feature_index,
-                 .at_start = hit.at_start},
-                fraction - slack,
-                fraction + slack};
+        const Decision decision{.hit = true,
+                                .side = hit.side,
+                                .feature = hit.feature,
+                                .feature_index = hit.feature_index,
+                                .at_start = hit.at_start};
+        Candidate candidate;
+        static_cast<Filtered&>(candidate) = {Verdict::hit, decision, fraction - slack, fraction + slack};
+        candidate.triangle = {hit.triangle, hit.face};
+        return candidate;
     }
 
   private:
@@ -168,8 +151,10 @@ class All {
         hit.feature = candidate_.decision.feature;
         hit.feature_index = candidate_.decision.feature_index;
         hit.at_start = candidate_.decision.at_start;
-        CertifiedFace<Scalar> face(path_, measured_, candidate_.decision, *scene_.backend->refine, counters_);
-        hit.exact_fraction = static_cast<Scalar>(face.measures().fraction);
+        Values values;
+        Rounded<Scalar> rounded;
+        certify(scene_.narrow(), candidate_.measured, path_, candidate_.decision, scene_.grain, counters_, values, rounded);
+        hit.exact_fraction = rounded.weights[3];
     }
 
     const Scene<Scalar>& scene_;
@@ -177,7 +162,6 @@ class All {
     std::span<Hit<Scalar>> out_;
     QueryCounters& counters_;
     Candidate candidate_;
-    Measured measured_;
     std::size_t total_ = 0;
     std::size_t kept_ = 0;
 };

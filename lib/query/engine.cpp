@@ -31,7 +31,7 @@ std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
     all.sort();
     TriangleRef before{};
     for (std::size_t i = 0; i < all.kept_count(); ++i) {
-        const Candidate candidate = All<Scalar>::candidate_of(out[i]);
+        Candidate candidate = All<Scalar>::candidate_of(out[i]);
         // Duplicates of one triangle, one behind the other: but for their numbers the answer is the same.
         if (i > 0 && scene.corners(candidate.triangle) == scene.corners(before)) {
             before = candidate.triangle;
@@ -45,19 +45,15 @@ std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
         // to the point.
         const auto passed = [&](TriangleRef triangle) {
             Candidate other;
-            Measured measured;
             if (masked(scene, triangle, options)) return false;
-            if (!Certified::test<Scalar>(scene.corners(triangle), triangle, path, options.sides, 1, counters, measured,
-                                         other))
-                return false;
-            if (options.accept && !accepted(scene, path, other, measured, options, counters)) return false;
+            if (!Certified::test(scene, triangle, path, options.sides, 1, counters, other)) return false;
+            if (options.accept && !accepted(scene, path, triangle, other.decision, other.measured, options, counters)) return false;
             if (other.latest < candidate.earliest) return true;
             return other.earliest <= candidate.latest &&
                    compare_fractions(path, scene.corners(triangle), scene.corners(candidate.triangle)) < 0;
         };
-        Measured measured;
-        measure_path<Scalar>(scene.corners(candidate.triangle), path, measured);
-        answer<Certified>(scene, path, candidate, measured, passed, options, counters, k_no_list, out[i]);
+        measure_path<Scalar>(scene.corners(candidate.triangle), path, candidate.measured);
+        answer<Certified>(scene, path, candidate, passed, options, counters, nullptr, out[i]);
     }
     return all.total();
 }
@@ -73,7 +69,7 @@ int crossings_of(const Scene<Scalar>& scene, const Path& path, QueryCounters& co
             const Corners corners = scene.corners({cluster, static_cast<std::uint32_t>(std::countr_zero(lanes))});
             Measured measured;
             measure_path<Scalar>(corners, path, measured);
-            const Filtered filtered = filter_strictly(measured, VolumeErrors(measured), Sides::both);
+            const Filtered filtered = filter_strictly(measured, Sides::both);
             if (filtered.verdict == Verdict::hit) {
                 sum += filtered.decision.side == Sides::front ? 1 : -1;
             } else if (filtered.verdict == Verdict::doubtful) {

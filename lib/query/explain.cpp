@@ -110,12 +110,12 @@ std::vector<FaceVerdict> explain(const Scene<Scalar>& scene, const Segment<Scala
         if (!overlap(near, box_of(corners))) return;
         FaceVerdict verdict = refusal(corners, named(scene.number_of(triangle)), path, options);
         if (verdict.reason == Reason::later) {
-            const Candidate candidate{triangle, decide(path, corners, options.sides)};
+            const Decision decision = decide(path, corners, options.sides);
             Measured measured;
             measure_path<Scalar>(corners, path, measured);
             if (!fraction_at_most(path, corners, options.max_fraction))
                 verdict.reason = Reason::too_far;
-            else if (options.accept && !accepted(scene, path, candidate, measured, options, counters))
+            else if (options.accept && !accepted(scene, path, triangle, decision, measured, options, counters))
                 verdict.reason = Reason::not_accepted;
             else if (first.found() && triangle == first.best().triangle)
                 verdict.reason = Reason::first_hit;

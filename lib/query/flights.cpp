@@ -50,13 +50,13 @@ struct FirstQuery {
         if (!collector.found()) return;
         ++batch.hits;
         Answer& hit = out.emplace();
-        answer<Certified, Scalar>(batch.scene, path, collector.best(), collector.best_measured(), none_passed,
-                                  batch.options, batch.counters, &collector.list(), hit);
+        answer<Certified, Scalar>(batch.scene, path, collector.best(), none_passed, batch.options, batch.counters,
+                                  &collector.list(), hit);
         if constexpr (std::is_same_v<Answer, SweepHit<Scalar>>) hit.time_of_impact = hit.fraction;
     }
 
     Path path;
-    First<Scalar, 2> collector;  // all of those in flight are on the stack
+    First<Scalar> collector;
     Out& out;
 };
 

@@ -8,28 +8,10 @@
 #include <limits>
 #include <type_traits>
 
+#include <kernel/first_place.h>
 #include <point.h>
 
 namespace pierce::detail {
-
-/// The grain, in units in the last place of the mesh's largest |coordinate|.
-///
-/// Rounding moves a point by up to half a unit a coordinate, sqrt(3) / 2 in all, along a normal; a target projected
-/// onto the plane takes three such roundings (the product, the difference, the sum): 2.6 units. Four is the least power
-/// of two above. Measured, landings stuck (S1), slides by the book in float (S4: 160 of 5 inclines, 4 rates, 8 offsets;
-/// the 24 of the test at offsets 0 and 1000), exact entries a step at rest in double, tilted, height 1 (T1):
-///   units                        1      2      3      4      5      6      8
-///   stuck of 230,000             0      0      0      0      0      0      0
-///   of 160 slides off by > 5 %   1      2      4      4      4      5      4
-///   the test's worst share    .991   .571   .766   .991   .571   .766   .571
-///   exact entries a step      1.08   1.11   1.14   1.17   1.33   1.36   1.42
-/// (The .571 and .766 are one slide each, at 1 degree and 240 steps a second, whose first steps are parts of a unit.)
-/// So none of the three tells a larger one from a smaller: what decides is the bound above. place_test.cpp has the
-/// three loops; each column is that test built with another number here.
-inline constexpr double k_grain_units = 4;
-
-/// How far from the true intersection a point may lie, in the same units, before points back along the way are tried.
-inline constexpr double k_reach_units = k_grain_units + 8;
 
 template <class Scalar>
 [[nodiscard]] double last_place(double largest) {
@@ -44,10 +26,12 @@ template <class Scalar>
 /// How far from the true intersection, in each coordinate, a point may be that `clear(point, true)` is asked about.
 [[nodiscard]] constexpr double near_margin(double grain) { return grain * (k_reach_units / k_grain_units); }
 
+/// `x` is at least 0.
 template <class Scalar>
 [[nodiscard]] Scalar rounded_down(double x) {
     const auto near = static_cast<Scalar>(x);
-    return static_cast<double>(near) > x ? std::nextafter(near, -std::numeric_limits<Scalar>::infinity()) : near;
+    using Bits = std::conditional_t<sizeof(Scalar) == 4, std::uint32_t, std::uint64_t>;
+    return std::bit_cast<Scalar>(std::bit_cast<Bits>(near) - Bits{static_cast<double>(near) > x});
 }
 
 template <class Scalar>

@@ -40,59 +40,42 @@ namespace pierce::detail {
 template <class Scalar, class Ways>
 class PlaceSearch {
   public:
-    /// `spot`: null where nothing but exact arithmetic is certain; `position` is the true point rounded, `normal` the
-    /// face's.
-    PlaceSearch(const Path& path, const Corners& corners, Sides side, double grain, const Spot* spot,
-                const Point& position, const Point& normal, QueryCounters& counters, const Ways& ways)
+    /// `values`: as certify() left them. `corners`: of the face.
+    PlaceSearch(const Path& path, const Corners& corners, const PlaceOf& of, const Values& values,
+                QueryCounters& counters, const Ways& ways)
         : path_(path),
           corners_(corners),
-          grain_(grain),
-          unit_(grain / k_grain_units),
-          per_unit_(1 / (unit_ * k_up)),
-          spot_(spot),
+          of_(of),
+          unit_(of.unit),
+          values_(values),
           counters_(counters),
-          ways_(ways) {
-        const Point& n = spot != nullptr ? spot->normal : normal;
-        length_ = spot != nullptr ? spot->length : std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        const double inverse = 1 / length_;
-        reach_ = k_reach_units - (spot != nullptr ? 0.125 : 1);
-        double off = grain;
-        const double sign = side == Sides::front ? 1 : -1;
-        if (spot != nullptr) {
-            high_ = spot->high;
-            low_ = spot->low;
-            off = std::min(grain, spot->distance * inverse);
-        } else {
-            high_ = position;
-            double distance = 0;
-            for (std::size_t k = 0; k < 3; ++k) distance += n[k] / length_ * (path.from[k] - position[k]);
-            off = std::min(grain, std::abs(distance));
-        }
-        off_length_ = off;
+          ways_(ways),
+          reach_(k_reach_units - (values.located ? 0.125 : 1)) {
+        of_.reach = reach_;
+        const double inverse = 1 / values.length;
+        off_length_ = std::min(of.grain, values.distance * inverse);
         for (std::size_t k = 0; k < 3; ++k) {
-            out_[k] = sign * n[k];
+            high_[k] = values.high[k];
+            low_[k] = values.low[k];
+            out_[k] = of.side * values.normal[k];
             unit_normal_[k] = out_[k] * inverse;
-            off_[k] = off * unit_normal_[k];
+            off_[k] = off_length_ * unit_normal_[k];
         }
     }
 
-    /// Sets `fraction` and `point`; `exact` is the true fraction, rounded once. Returns how many points were not clear.
-    int find(double exact, Hit<Scalar>& hit) {
-        // Below the true fraction, which `exact` is within CertifiedFace::k_tolerance of, and one rounding; two steps
-        // where it is denormal.
-        const double below = std::max(0.0, exact * (1 - (sizeof(Scalar) == 4 ? 0x1p-28 : 0x1p-52)) - 0x1p-1073);
-        if (find_near(hit)) {
-            hit.fraction = same_as_start(hit) ? Scalar{0} : rounded_down<Scalar>(below);
-            return tries_;
-        }
-        find_back(below, hit);
+    /// Sets `fraction` and `point`; `below`: less than the true fraction. Returns how many points were not clear.
+    int find(double below, Hit<Scalar>& hit) {
+        if (!find_near(hit))
+            find_back(below, hit);
+        else
+            hit.fraction = to_point(hit.point) == path_.from ? Scalar{0} : rounded_down<Scalar>(below);
         return tries_;
     }
 
   private:
     bool find_near(Hit<Scalar>& hit) {
-        if (try_near(off_, k_outwards, hit) == Tried::clear) return true;
-        if (try_near(off_, k_to_nearest, hit) == Tried::clear) return true;
+        if (try_near(off_, k_outwards, hit) == Found::clear) return true;
+        if (try_near(off_, k_to_nearest, hit) == Found::clear) return true;
         Around around{high_, low_, unit_, {}};
         for (std::size_t k = 0; k < 3; ++k)
             around.rounding[k] = last_place<Scalar>(std::abs(high_[k]) + k_reach_units * unit_) / unit_ / 2;
@@ -126,7 +109,7 @@ class PlaceSearch {
                 square += off * off;
             }
             return square <= reach_ * reach_ && is_finite_and_far(point) && ways_.clear(point, true) &&
-                   take(point, true, hit) == Tried::clear;
+                   take(point, true, hit) == Found::clear;
         });
     }
 
@@ -171,10 +154,10 @@ class PlaceSearch {
         Decision blocked;
         const unsigned step = thin_ ? 1 : k_outwards;
         for (unsigned rounding = k_to_nearest; rounding <= k_outwards && (thin_ || !stopped); rounding += step) {
-            const Tried tried = try_near(by, rounding, hit);
-            if (tried == Tried::clear) found_ = true;
+            const Found tried = try_near(by, rounding, hit);
+            if (tried == Found::clear) found_ = true;
             if (found_) return false;
-            if (stopped || tried == Tried::unfit) continue;
+            if (stopped || tried == Found::unfit) continue;
             stopped = true;
             blocker = blocker_;
             blocked = blocked_;
@@ -184,28 +167,16 @@ class PlaceSearch {
         return stopped;
     }
 
-    enum class Tried : std::uint8_t { clear, stopped, unfit };
-    /// Below 8: the coordinates whose bit is set are rounded to the further of their two neighbours.
-    static constexpr unsigned k_to_nearest = 0;
-    static constexpr unsigned k_outwards = 8;  ///< off the plane
+    enum class Found : std::uint8_t { clear, stopped, unfit };
 
     // The true point, moved by `by`, rounded. Where it is stopped, `blocker_` is what stops it.
-    Tried try_near(const Point& by_, unsigned rounding, Hit<Scalar>& hit) {
-        double square = 0;  // of the distance from the true point, in units
-        Point by{};
-        for (std::size_t k = 0; k < 3; ++k) by[k] = low_[k] + by_[k];
-        Point point = rounded_to<Scalar>({high_[0] + by[0], high_[1] + by[1], high_[2] + by[2]});
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double beyond = (point[k] - high_[k]) - by[k];
-            const bool inwards = (beyond < 0 && out_[k] > 0) || (beyond > 0 && out_[k] < 0);
-            const bool turned = rounding == k_outwards ? inwards : (rounding >> k & 1U) != 0 && beyond != 0;
-            const double next = next_to<Scalar>(point[k], -beyond);  // no branch: which way it goes can't be predicted
-            point[k] = turned ? next : point[k];
-            const double x = ((point[k] - high_[k]) - low_[k]) * k_up * per_unit_;
-            square += x * x;
-        }
-        if (!(square <= reach_ * reach_)) return Tried::unfit;  // or not finite
-        return take(point, true, hit);
+    Found try_near(const Point& by, unsigned rounding, Hit<Scalar>& hit) {
+        TwoPairs place{};
+        const Tried tried =
+            try_place<Scalar>(values_, of_, TwoPairs::load_point(by.data()), rounding, place);
+        if (tried == Tried::unfit) return Found::unfit;
+        const Point point{place.low[0], place.low[1], place.high[0]};
+        return tried == Tried::far || is_exactly_far(point) ? take(point, true, hit) : Found::unfit;
     }
 
     void find_back(double below, Hit<Scalar>& hit) {
@@ -221,81 +192,47 @@ class PlaceSearch {
             for (std::size_t k = 0; k < 3; ++k) point[k] = path_.from[k] * back + (high_[k] + off_[k]) * share;
             point = rounded_to<Scalar>(point);
             hit.fraction = rounded_down<Scalar>(below * share);
-            if (point != path_.from && take(point, false, hit) == Tried::clear) return;
+            if (point != path_.from && take(point, false, hit) == Found::clear) return;
             for (std::size_t k = 0; k < 3; ++k)
                 if (out_[k] != 0) point[k] = next_to<Scalar>(point[k], out_[k]);
-            if (point != path_.from && take(point, false, hit) == Tried::clear) return;
+            if (point != path_.from && take(point, false, hit) == Found::clear) return;
         }
         hit.fraction = 0;
         for (int k = 0; k < 3; ++k) hit.point[k] = static_cast<Scalar>(path_.from[static_cast<std::size_t>(k)]);
     }
 
-    Tried take(const Point& point, bool near, Hit<Scalar>& hit) {
-        if (!is_finite_and_far(point)) return Tried::unfit;
+    // A point that is far enough from the plane.
+    Found take(const Point& point, bool near, Hit<Scalar>& hit) {
         if (point != path_.from) {
             if (near ? ways_.stops(point, blocker_, blocked_) : !ways_.clear(point, false)) {
                 ++tries_;
-                return Tried::stopped;
+                return Found::stopped;
             }
         }
         for (int k = 0; k < 3; ++k) hit.point[k] = static_cast<Scalar>(point[static_cast<std::size_t>(k)]);
-        return Tried::clear;
+        return Found::clear;
     }
 
     bool is_finite_and_far(const Point& point) {
         for (const double x : point)
             if (!std::isfinite(x)) return false;
-        return point == path_.from || is_far(point);
+        const Tried tried = Farness<TwoPairs>(values_, of_, TwoPairs::load_point(point.data())).tried();
+        return tried == Tried::far || (tried == Tried::unsure && is_exactly_far(point));
     }
 
-    // On the start's side, and a grain off the plane or as far as the start. The first by n . (point - P), P being in
-    // the plane, the second by n . (point - from): each term is off by what n and P may be off, and 2^-51 of itself for
-    // its roundings and the sum's. (Where each term of the second has a factor that is exactly 0, so is it.) Only what
-    // neither proves nor refutes is left to exact arithmetic.
-    bool is_far(const Point& point) {
-        if (spot_ != nullptr) {
-            double from_plane = 0;
-            double plane_error = k_underflow;
-            double from_start = 0;
-            double start_error = 0;
-            double length_error = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double n = std::abs(out_[k]);
-                const double dn = spot_->normal_error[k] + 0x1p-51 * n;
-                const double x = (point[k] - high_[k]) - low_[k];
-                from_plane += out_[k] * x;
-                plane_error += dn * std::abs(x) + (n + dn) * spot_->error[k];
-                const double y = point[k] - path_.from[k];
-                from_start += out_[k] * y;
-                if (y != 0 && (n != 0 || spot_->normal_error[k] != 0)) start_error += dn * std::abs(y) + k_underflow;
-                length_error += spot_->normal_error[k];
-            }
-            plane_error *= 1.01;
-            start_error *= 1.01;
-            const double wanted = k_far * grain_ * (length_ + length_error);
-            if (from_plane - plane_error >= wanted || from_start >= start_error) return true;
-            if (from_plane + plane_error < wanted && from_start < -start_error) return false;
-        }
+    bool is_exactly_far(const Point& point) {
+        if (point == path_.from) return true;
         ++counters_.exact_sides;
-        return is_far_enough(corners_, path_.from, point, k_far * grain_);
+        return is_far_enough(corners_, path_.from, point, k_far * of_.grain);
     }
-
-    bool same_as_start(const Hit<Scalar>& hit) const { return to_point(hit.point) == path_.from; }
 
     const Path& path_;
     const Corners& corners_;
-    double grain_;
+    PlaceOf of_;
     double unit_;
-    static constexpr double k_up = 0x1p60;  ///< or the inverse of a subnormal unit would be infinite
-    double per_unit_;
-    const Spot* spot_;
+    const Values& values_;
     QueryCounters& counters_;
     const Ways& ways_;
-    /// Of a grain, so that a point that lies exactly a grain off is not refused by the roundings here (2^-47).
-    static constexpr double k_far = 1 - 0x1p-40;
-    /// More than products lose where they underflow, 2^-1075 each. A normal number: products with one that is not take
-    /// 150 cycles.
-    static constexpr double k_underflow = 0x1p-1000;
     static constexpr int k_most_tries = 48;
     int most_tries_ = k_most_tries;
     bool thin_ = false;
@@ -303,7 +240,6 @@ class PlaceSearch {
     /// Less what the true point may be off: a sixteenth of a unit a coordinate, or half a unit where it was only
     /// rounded.
     double reach_;
-    double length_;
     double off_length_ = 0;
     Corners blocker_{};
     Decision blocked_{};  ///< the hit on it
@@ -315,33 +251,44 @@ class PlaceSearch {
     int tries_ = 0;
 };
 
-/// Sets `position`, `point` and `fraction` of a hit: the segment from -> point has no hit, none of the hit's own
-/// triangle, from whose plane the point keeps off, and none of any other, which `ways` says:
+/// A bound below the true fraction, of which `exact` is within k_tolerance, and one rounding; two steps where it is
+/// denormal.
+template <class Scalar>
+[[nodiscard]] inline double fraction_below(double exact) {
+    return std::max(0.0, exact * (1 - (sizeof(Scalar) == 4 ? 0x1p-28 : 0x1p-52)) - 0x1p-1073);
+}
+
+/// The rest of place(), where the first place is not clear or not certain.
+template <class Scalar, class Ways>
+[[gnu::noinline]] int search_place(const Path& path, const Measured& measured, const PlaceOf& of, const Values& values,
+                                   QueryCounters& counters, const Ways& ways, Hit<Scalar>& hit) {
+    const Corners corners = corners_of(measured);
+    PlaceSearch<Scalar, Ways> search(path, corners, of, values, counters, ways);
+    return search.find(fraction_below<Scalar>(values.weights[3]), hit);
+}
+
+/// Sets `point` and `fraction` of a hit: the segment from -> point has no hit, none of the hit's own triangle, from
+/// whose plane the point keeps off, and none of any other, which `ways` says:
 ///   bool stops(point, corners, decision)   whether a triangle stops the way to a point within `near_margin(grain)` of
 ///                                          the true one in each coordinate; if so, the corners of the first, and how
 ///                                          it is hit
 ///   bool clear(point, near)            whether none stops the way to a point, near as above or any
-/// `from` itself needs no proof. `exact`: the true fraction, rounded once. Returns how many points were not clear.
-template <class Scalar, class Face, class Ways>
-int place(const Path& path, const Corners& corners, const Decision& decision, double grain, double exact, Face& face,
-          QueryCounters& counters, const Ways& ways, Hit<Scalar>& hit) {
-    Point position = path.from;
-    int tries = 0;
+/// `from` itself needs no proof. `values`: as certify() left them. Returns how many points were not clear.
+template <class Scalar, class Ways>
+int place(const Path& path, const Measured& measured, const Decision& decision, double grain, const Values& values,
+          const Rounded<Scalar>& rounded, QueryCounters& counters, const Ways& ways, Hit<Scalar>& hit) {
     if (decision.at_start) {
         hit.fraction = 0;
         for (int k = 0; k < 3; ++k) hit.point[k] = static_cast<Scalar>(path.from[static_cast<std::size_t>(k)]);
-    } else {
-        const Located located = face.locate(grain / k_grain_units, position);
-        if (!located.rounded) {
-            ++counters.exact_values;
-            position = exact_position<Scalar>(path, corners);
-        }
-        PlaceSearch<Scalar, Ways> search(path, corners, decision.side, grain, located.spot, position, face.normal(),
-                                         counters, ways);
-        tries = search.find(exact, hit);
+        return 0;
     }
-    for (int k = 0; k < 3; ++k) hit.position[k] = static_cast<Scalar>(position[static_cast<std::size_t>(k)]);
-    return tries;
+    const Point point{values.point[0], values.point[1], values.point[2]};
+    if (values.tried == Tried::far && point != path.from && ways.clear(point, true)) [[likely]] {
+        hit.fraction = rounded_down<Scalar>(fraction_below<Scalar>(values.weights[3]));
+        std::memcpy(hit.point.data(), rounded.point, sizeof hit.point);
+        return 0;
+    }
+    return search_place(path, measured, place_of(measured, grain, decision.side), values, counters, ways, hit);
 }
 
 }  // namespace pierce::detail

@@ -1,25 +1,22 @@
 // Where the values of a decided hit are rounded: fraction, weights, normal. (The verified point: place.h.)
 #pragma once
 
-#include <cmath>
+#include <cstring>
 
-#include <exact/decide.h>
-#include <exact/fraction.h>
+#include <decision.h>
+#include <kernel/values.h>
 #include <pierce/hit.h>
 
 namespace pierce::detail {
 
-/// Writes everything but `fraction`, `point` and `position`, from what is certified (values.h).
+/// Writes everything but `fraction` and `point`, from what is certified (values.h).
 template <class Scalar>
-void report(const Measures& measures, const Point& normal, const Decision& decision, std::uint32_t face,
-            std::uint32_t triangle, Hit<Scalar>& hit) {
-    const double inverse = 1 / std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-    for (int k = 0; k < 3; ++k) {
-        const auto at = static_cast<std::size_t>(k);
-        hit.normal[k] = static_cast<Scalar>(normal[at] * inverse);
-        hit.barycentric[k] = static_cast<Scalar>(measures.barycentric[at]);
-    }
-    hit.exact_fraction = static_cast<Scalar>(measures.fraction);
+void report(const Rounded<Scalar>& rounded, const Decision& decision, std::uint32_t face, std::uint32_t triangle,
+            Hit<Scalar>& hit) {
+    std::memcpy(hit.position.data(), rounded.position, sizeof hit.position);
+    std::memcpy(hit.normal.data(), rounded.normal, sizeof hit.normal);
+    std::memcpy(hit.barycentric.data(), rounded.weights, sizeof hit.barycentric);
+    hit.exact_fraction = rounded.weights[3];
     hit.face = face;
     hit.triangle = triangle;
     hit.side = decision.side;

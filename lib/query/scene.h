@@ -62,6 +62,10 @@ struct Scene {
     [[nodiscard]] Corners corners(TriangleRef triangle) const {
         return clusters.corners(triangle.cluster, triangle.lane);
     }
+    [[nodiscard]] Row<Scalar> row(TriangleRef triangle) const {
+        return {clusters.record(triangle.cluster) + triangle.lane, count_of(triangle.cluster)};
+    }
+    [[nodiscard]] const NarrowKernels<Scalar>& narrow() const { return backend->narrow->template of<Scalar>(); }
     /// The caller's number.
     [[nodiscard]] std::uint32_t number_of(TriangleRef triangle) const {
         return clusters.triangle(triangle.cluster, triangle.lane);

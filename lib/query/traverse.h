@@ -14,16 +14,13 @@ void test_triangle(const Scene<Scalar>& scene, const Path& path, TriangleRef tri
                    double most, QueryCounters& counters, Collector& collector) {
     if (!collector.wants(triangle) || masked(scene, triangle, options)) return;
     Candidate& candidate = collector.room();
-    Measured& measured = collector.measured();
     const double limit = std::min(collector.limit(), most);
-    const Corners corners = scene.corners(triangle);
-    if (!Kernel::template test<Scalar>(corners, triangle, path, options.sides, limit, counters, measured, candidate))
-        return;
+    if (!Kernel::test(scene, triangle, path, options.sides, limit, counters, candidate)) return;
     if (candidate.latest > most) {
         if (candidate.earliest > most) return;
-        if (!fraction_at_most(path, corners, most)) return;
+        if (!fraction_at_most(path, scene.corners(triangle), most)) return;
     }
-    if (options.accept && !accepted(scene, path, candidate, measured, options, counters)) return;
+    if (options.accept && !accepted(scene, path, triangle, candidate.decision, candidate.measured, options, counters)) return;
     collector.add();
 }
 
@@ -45,7 +42,6 @@ double test_cluster(const Scene<Scalar>& scene, const Path& path, ClusterRef clu
 ///   double limit()                hits beyond this fraction are of no use; negative: none is any more
 ///   bool wants(triangle)          whether to look at it at all
 ///   Candidate& room()             where the next hit is to be written (a copy of what was just written would wait for memory)
-///   Measured& measured()          where the volumes of the next triangle are to be written
 ///   void add()                    the hit that was written there counts
 ///   void seen(triangle)           this was one that the wide kernels left
 /// `most`, or `options.max_fraction`, must not be NaN.

@@ -1,107 +1,125 @@
-// What is certified about a triangle that is hit, each value by the cheapest arithmetic that is certainly good enough:
-// double (for float only),
+// The values of a hit, each by the cheapest arithmetic that is certainly good enough: double (for float only),
 // double-double, exact integers.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include <exact/fraction.h>
+#include <exact/place.h>
 #include <exact/planes.h>
 #include <kernel/filter.h>
-#include <kernel/refine.h>
+#include <kernel/narrow.h>
 #include <pierce/options.h>
 
 namespace pierce::detail {
 
-/// What could be said of a hit's place without exact arithmetic.
-struct Located {
-    const Spot* spot = nullptr;  ///< near enough to choose a place from, as long as the face lives
-    bool rounded = false;        ///< and the true point is correctly rounded
-};
-
-/// `Scalar`: what the values will be rounded to.
+/// Of all values, before they are rounded: at most a thirty-second of the unit of rounding.
 template <class Scalar>
-class CertifiedFace {
-  public:
-    /// All must live as long. `measured`: of this path.
-    CertifiedFace(const Path& path, const Measured& measured, const Decision& decision, const Refine& refine,
-                  QueryCounters& counters)
-        : path_(path), measured_(measured), decision_(decision), refine_(refine), counters_(counters) {
-        if constexpr (k_coarse)
-            evaluate(measured_, measured_.meeting, values_);
-        else
-            refine_(measured_, values_);
+inline constexpr double k_tolerance = sizeof(Scalar) == sizeof(float) ? 0x1p-29 : 0x1p-58;
+
+/// Whether fraction and weights of a hit are within `tolerance` of themselves and of 1. At the start the fraction is
+/// exactly 0, and no computed one is within a part of itself.
+[[nodiscard]] inline bool measures_are_near(const Values& x, const Decision& decision, double tolerance) {
+    return x.weight_error <= tolerance && (decision.at_start || x.fraction_error <= tolerance * x.weights[3]);
+}
+
+/// What a hit on an edge, a corner or at the start is known to have.
+inline void set_features(const Path& path, const Decision& decision, Values& values) {
+    if (decision.at_start) {
+        values.weights[3] = 0;
+        for (std::size_t k = 0; k < 3; ++k) values.position[k] = path.from[k];
     }
-    CertifiedFace(const CertifiedFace&) = delete;
-    CertifiedFace& operator=(const CertifiedFace&) = delete;
+    if (decision.feature == Feature::face) return;
+    for (int k = 0; k < 3; ++k)
+        if (is_off(decision, k)) values.weights[k] = 0;
+    if (decision.feature == Feature::vertex) values.weights[decision.feature_index] = 1;
+}
 
-    /// The normal up to a factor, each component within 2^-28 (for float) or 2^-52 (for double) of its length.
-    [[nodiscard]] Point normal() {
-        if (measured_.tame) {
-            if (values_.normal_error <= k_tolerance * values_.length) return values_.spot.normal;
-            if (k_coarse && finer().normal_error <= k_tolerance * finer().length) return finer().spot.normal;
-        }
-        ++counters_.exact_values;
-        return exact_planes(corners_of(measured_)).normal;
+/// Sets fraction and weights exactly, rounded once.
+inline void measure_exactly(const Path& path, const Corners& corners, QueryCounters& counters, Values& values) {
+    ++counters.exact_values;
+    const Measures exact = measure(path, corners);
+    for (std::size_t k = 0; k < 3; ++k) values.weights[k] = exact.barycentric[k];
+    values.weights[3] = exact.fraction;
+}
+
+/// Whether all that `certify` sets is certain.
+template <class Scalar>
+[[nodiscard]] inline bool are_certain(const Values& x, const Decision& decision) {
+    const bool near = measures_are_near(x, decision, k_tolerance<Scalar>);
+    return near && x.normal_error <= k_tolerance<Scalar> * x.length && (decision.at_start || (x.located && x.rounded));
+}
+
+/// Makes certain what is not.
+template <class Scalar>
+[[gnu::noinline]] void complete(const NarrowKernels<Scalar>& kernels, const Measured& measured, const Path& path,
+                                const Decision& decision, double grain, QueryCounters& counters, Values& values,
+                                Rounded<Scalar>& rounded) {
+    constexpr double k_unknown = std::numeric_limits<double>::infinity();
+    if (sizeof(Scalar) == sizeof(float)) {
+        kernels.evaluate_finely(measured, decision.side, grain, values, rounded);
+        if (are_certain<Scalar>(values, decision)) return;
     }
-
-    /// Fraction and weights of a hit, within `k_tolerance` of themselves and of 1 before they are rounded to double.
-    [[nodiscard]] Measures measures() {
-        if (is_near(values_)) return measures_of(values_);
-        if (k_coarse && is_near(finer())) return measures_of(finer());
-        ++counters_.exact_values;
-        return measure(path_, corners_of(measured_));
+    const Corners corners = corners_of(measured);
+    if (!measures_are_near(values, decision, k_tolerance<Scalar>)) measure_exactly(path, corners, counters, values);
+    if (!(values.normal_error <= k_tolerance<Scalar> * values.length)) {
+        ++counters.exact_values;
+        const Point normal = exact_planes(corners).normal;
+        values.length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+        for (std::size_t k = 0; k < 3; ++k) values.normal[k] = normal[k];
+        values.located = false;
     }
-
-    /// The true point of a hit, within a sixteenth of `unit` in each coordinate, and correctly rounded.
-    [[nodiscard]] Located locate(double unit, Point& position) {
-        Located located = located_by(values_, unit, position);
-        if (k_coarse && !located.rounded) {
-            const Located by_finer = located_by(finer(), unit, position);
-            if (by_finer.spot != nullptr) located = by_finer;
-        }
-        return located;
+    if (decision.at_start || (values.located && values.rounded)) return;
+    ++counters.exact_values;
+    const Point position = exact_position<Scalar>(path, corners);
+    for (std::size_t k = 0; k < 3; ++k) values.position[k] = position[k];
+    values.rounded = true;
+    if (values.located) return;
+    // Half a unit off, and nothing proves anything.
+    double distance = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        values.high[k] = position[k];
+        values.low[k] = 0;
+        values.error[k] = values.normal_errors[k] = k_unknown;
+        distance += values.normal[k] * (path.from[k] - position[k]);
     }
+    values.length_error = k_unknown;
+    values.distance = std::abs(distance);
+    values.tried = Tried::unfit;  // so all is left to the search
+}
 
-    static constexpr bool k_coarse = sizeof(Scalar) == sizeof(float);
-    /// Of all values, before they are rounded: at most a thirty-second of the unit of rounding.
-    static constexpr double k_tolerance = k_coarse ? 0x1p-29 : 0x1p-58;
-
-  private:
-    // At the start the fraction is exactly 0, and no computed one is within a part of itself.
-    [[nodiscard]] bool is_near(const Values& x) const {
-        return x.good && x.weight_error <= k_tolerance &&
-               (decision_.at_start || x.fraction_error <= k_tolerance * x.fraction);
+/// Values of a triangle that is hit: fraction and weights within `k_tolerance` of themselves and of 1 before they are
+/// rounded to double, the normal up to a factor, each component within 2^-28 (for float) or 2^-52 (for double) of its
+/// length; the true point correctly rounded to Scalar; and what is known of the first place to be tried, unless it
+/// starts on the face.
+template <class Scalar>
+void certify(const NarrowKernels<Scalar>& kernels, const Measured& measured, const Path& path, const Decision& decision,
+             double grain, QueryCounters& counters, Values& values, Rounded<Scalar>& rounded) {
+    kernels.evaluate(measured, decision.side, grain, values, rounded);
+    const bool certain = are_certain<Scalar>(values, decision);
+    if (certain && decision.feature == Feature::face && !decision.at_start) [[likely]]
+        return;
+    if (!certain) complete(kernels, measured, path, decision, grain, counters, values, rounded);
+    set_features(path, decision, values);
+    for (std::size_t k = 0; k < 4; ++k) {
+        rounded.position[k] = static_cast<Scalar>(values.position[k]);
+        rounded.normal[k] = static_cast<Scalar>(1 / values.length * values.normal[k]);
+        rounded.weights[k] = static_cast<Scalar>(values.weights[k]);
     }
+}
 
-    [[nodiscard]] Measures measures_of(const Values& x) const {
-        Measures measures{x.fraction, {x.barycentric[0], x.barycentric[1], x.barycentric[2]}};
-        if (decision_.at_start) measures.fraction = 0;
-        if (decision_.feature == Feature::face) return measures;
-        for (int k = 0; k < 3; ++k)
-            if (is_off(decision_, k)) measures.barycentric[static_cast<std::size_t>(k)] = 0;
-        if (decision_.feature == Feature::vertex) measures.barycentric[decision_.feature_index] = 1;
-        return measures;
-    }
-
-    static Located located_by(const Values& x, double unit, Point& position) {
-        const Point& error = x.spot.error;
-        if (!x.good || !(std::max({error[0], error[1], error[2]}) <= unit / 16)) return {};
-        return {&x.spot, round_position<Scalar>(x.spot, position)};
-    }
-
-    [[nodiscard]] const Values& finer() {
-        if (!has_finer_) refine_(measured_, finer_);
-        has_finer_ = true;
-        return finer_;
-    }
-
-    const Path& path_;
-    const Measured& measured_;
-    const Decision& decision_;
-    const Refine& refine_;
-    QueryCounters& counters_;
-    Values values_;
-    Values finer_;  ///< for float, where it is needed
-    bool has_finer_ = false;
-};
+/// Fraction and weights for the caller's own test, within 2^-58 of themselves and of 1 before they are rounded.
+template <class Scalar>
+[[nodiscard]] Measures fine_measures(const NarrowKernels<Scalar>& kernels, const Measured& measured, const Path& path,
+                                     const Decision& decision, QueryCounters& counters) {
+    Values values;
+    Rounded<Scalar> unused;
+    kernels.evaluate_finely(measured, decision.side, 1, values, unused);
+    if (!measures_are_near(values, decision, k_tolerance<double>))
+        measure_exactly(path, corners_of(measured), counters, values);
+    set_features(path, decision, values);
+    return {values.weights[3], {values.weights[0], values.weights[1], values.weights[2]}};
+}
 
 }  // namespace pierce::detail

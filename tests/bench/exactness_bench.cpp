@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <bench/exactness_twin.h>
 #include <query/answer.h>
 #include <support/meshes.h>
 #include <support/real_meshes.h>
@@ -18,41 +19,28 @@ namespace {
 using namespace detail;
 
 /// The inexact twin: the same code with the sign of each double taken as final, and values, normals and places straight
-/// from the doubles. A plain
-/// floating-point library, in effect.
+/// from the doubles. A plain floating-point library, in effect. (Its narrow phase is in exactness_twin.h, compiled for
+/// the same instruction sets as the library's.)
 struct Trusting {
     template <class Scalar>
-    static bool test(const Corners& corners, TriangleRef triangle, const Path& path, Sides sides, double limit, QueryCounters&, Measured& x,
-                     Candidate& candidate) {
-        measure_path<Scalar>(corners, path, x);
-        const double end = x.v() - x.s();
-        const bool front = sides != Sides::back && x.v() <= 0 && end > 0;
-        const bool back = sides != Sides::front && x.v() >= 0 && end < 0;
-        if (!front && !back) return false;
-        const double a = x.s() - x.b() - x.c();
-        if (front ? std::max({a, x.b(), x.c()}) > 0 : std::min({a, x.b(), x.c()}) < 0) return false;
-        const double fraction = x.v() / x.s();
-        if (!(fraction < limit)) return false;  // so no two hits are ever left to the exact order
+    static bool test(const Scene<Scalar>& scene, TriangleRef triangle, const Path& path, Sides sides, double limit,
+                     QueryCounters&, Candidate& candidate) {
         candidate.triangle = triangle;
-        candidate.decision = {.hit = true, .side = front ? Sides::front : Sides::back};
-        candidate.earliest = candidate.latest = fraction;
-        return true;
+        twin_of<Scalar>(scene).filter(scene.row(triangle), path.from.data(), path.to.data(), sides, candidate,
+                                      candidate.measured);
+        return candidate.verdict == Verdict::hit && candidate.earliest < limit;  // so no two are ever left to the exact order
     }
     template <class Scalar>
-    struct Face {
-        Face(const Path&, const Measured& measured, const Decision&, const Refine&, QueryCounters&) { evaluate(measured, measured.meeting, values); }
-        [[nodiscard]] Point normal() const { return values.spot.normal; }
-        [[nodiscard]] Measures measures() const {
-            return {values.fraction, {values.barycentric[0], values.barycentric[1], values.barycentric[2]}};
-        }
-        [[nodiscard]] Located locate(double, Point& position) {
-            values.spot.error = values.spot.normal_error = {};
-            position = rounded_to<Scalar>(values.spot.high);
-            return {&values.spot, true};
-        }
+    static void certify(const Scene<Scalar>& scene, const Candidate& candidate, const Path&, QueryCounters&,
+                        Values& values, Rounded<Scalar>& rounded) {
+        twin_of<Scalar>(scene).evaluate(candidate.measured, candidate.decision.side, scene.grain, values, rounded);
+    }
 
-        Values values;
-    };
+  private:
+    template <class Scalar>
+    static const NarrowKernels<Scalar>& twin_of(const Scene<Scalar>& scene) {
+        return (scene.backend->narrow == &k_narrow ? k_trusting : k_trusting_fused).template of<Scalar>();
+    }
 };
 
 struct Set {
@@ -178,15 +166,15 @@ void answer_until(const Scene<Scalar>& scene, const Path& path, const std::vecto
     const Candidate& best = first.best();
     hit.fraction = static_cast<Scalar>(best.earliest);
     if constexpr (until == Until::all) {
-        answer<Certified>(scene, path, best, first.best_measured(), none_passed, options, counters, &first.list(), hit);
+        answer<Certified>(scene, path, best, none_passed, options, counters, &first.list(), hit);
     } else if constexpr (until != Until::filter) {
-        CertifiedFace<Scalar> face(path, first.best_measured(), best.decision, *scene.backend->refine, counters);
+        Values values;
+        Rounded<Scalar> rounded;
+        Certified::certify(scene, best, path, counters, values, rounded);
         const std::uint32_t number = scene.number_of(best.triangle);
-        const Measures measures = face.measures();
-        report(measures, face.normal(), best.decision, scene.face_of_number(number), number, hit);
+        report(rounded, best.decision, scene.face_of_number(number), number, hit);
         if constexpr (until == Until::values) return;
-        place<Scalar>(path, corners_of(first.best_measured()), best.decision, scene.grain, measures.fraction, face,
-                      counters, FreeWays{}, hit);
+        place(path, best.measured, best.decision, scene.grain, values, rounded, counters, FreeWays{}, hit);
     }
 }
 

@@ -58,7 +58,7 @@ void judge(Family family, int power, double offset, Random& random, GmpOracle& o
         for (const Sides sides : {Sides::both, Sides::front, Sides::back}) {
             const Decision right = sides == Sides::both ? decision : decide(pair.path, pair.corners, sides);
             const Filtered filtered = filter(measured, sides);
-            const Verdict strict = filter_strictly(measured, VolumeErrors(measured), sides).verdict;
+            const Verdict strict = filter_strictly(measured, sides).verdict;
             // What it says strictly it says of the closed rule too; what is a hit lies in the face.
             if (strict != Verdict::doubtful && (strict != filtered.verdict || (strict == Verdict::hit && right.feature != Feature::face)))
                 ADD_FAILURE() << "strictly: " << describe(pair);

@@ -4,7 +4,7 @@
 #include <exact/decide.h>
 #include <kernel/backends.h>
 #include <kernel/filter.h>
-#include <kernel/refine.h>
+#include <kernel/evaluate.h>
 #include <support/pairs.h>
 #include <support/whole.h>
 
@@ -82,15 +82,15 @@ void judge(const test::Pair& pair, double tolerance, Tally& tally) {
     check("v - s", lane(meeting.vc, 0) - lane(meeting.sb, 0), exact.v - exact.s, 10 * u * (measured.bar_sb[0] + measured.bar_vc[0]), 3 * k_unit);
 
     Values values;
-    evaluate(measured, meeting, values);
+    evaluate<double, TwoPairs>(measured, meeting, 1, values);
     const double length = values.length;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double error = error_in(values.spot.normal_error[k], values.spot.normal[k], exact.n[k], 2 * k_unit);
+        const double error = error_in(values.normal_errors[k], values.normal[k], exact.n[k], 2 * k_unit);
         EXPECT_LE(error, 1) << "normal: " << describe(pair);
         const double bound = values.normal_error < length ? values.normal_error + 0x1p-52 * length : HUGE_VAL;
-        EXPECT_LE(bound == HUGE_VAL ? 0 : error_in(bound, values.spot.normal[k], exact.n[k], 2 * k_unit), 1) << describe(pair);
+        EXPECT_LE(bound == HUGE_VAL ? 0 : error_in(bound, values.normal[k], exact.n[k], 2 * k_unit), 1) << describe(pair);
     }
-    if (!decide(pair.path, pair.corners, Sides::both).hit || !values.good) return;
+    if (!decide(pair.path, pair.corners, Sides::both).hit || !std::isfinite(values.weight_error)) return;
     // |x - y / s| <= e is |x s - y| <= e |s|, and a rounding of x, which is at most 1.
     const auto near = [&](const char* what, double x, const mpz_class& y, double bound) {
         const mpz_class error = abs(whole(x, k_unit) * exact.s - (y << k_unit));
@@ -98,18 +98,18 @@ void judge(const test::Pair& pair, double tolerance, Tally& tally) {
         tally.value = std::max(tally.value, parts);
         EXPECT_LE(parts, 1 + 0x1p-20) << what << ": " << describe(pair);
     };
-    near("fraction", values.fraction, exact.v, values.fraction_error + 0x1p-1000);
-    for (std::size_t k = 0; k < 3; ++k) near("weight", values.barycentric[k], exact.w[k], values.weight_error);
+    near("fraction", values.weights[3], exact.v, values.fraction_error + 0x1p-1000);
+    for (std::size_t k = 0; k < 3; ++k) near("weight", values.weights[k], exact.w[k], values.weight_error);
     for (std::size_t k = 0; k < 3; ++k) {
         const mpz_class from = whole(pair.path.from[k], k_unit);
-        const mpz_class error = abs((whole(values.spot.high[k], k_unit) + whole(values.spot.low[k], k_unit) - from) * exact.s - exact.v * exact.d[k]);
-        const mpz_class bound = whole(values.spot.error[k], k_unit) * abs(exact.s);
+        const mpz_class error = abs((whole(values.high[k], k_unit) + whole(values.low[k], k_unit) - from) * exact.s - exact.v * exact.d[k]);
+        const mpz_class bound = whole(values.error[k], k_unit) * abs(exact.s);
         EXPECT_LE(error, bound) << "place: " << describe(pair);
         if (bound != 0) tally.place = std::max(tally.place, mpq_class(error, bound).get_d());
     }
-    const mpz_class far = whole(values.spot.distance * (1 - 0x1p-51), 3 * k_unit);
+    const mpz_class far = whole(values.distance * (1 - 0x1p-51), 3 * k_unit);
     EXPECT_LE(far, abs(exact.v)) << "distance: " << describe(pair);
-    if (values.fraction_error <= tolerance * values.fraction && values.weight_error <= tolerance && values.normal_error <= tolerance * length) ++tally.values;
+    if (values.fraction_error <= tolerance * values.weights[3] && values.weight_error <= tolerance && values.normal_error <= tolerance * length) ++tally.values;
 }
 
 // Pairs of all families, as they come (`power` 0) or scaled, beyond the ends of the range too, where one axis may be
@@ -157,26 +157,66 @@ TEST(Meeting, volumes_and_values_in_twice_the_precision_stay_within_their_bounds
     EXPECT_GT(tally.place, 0.0005);
 }
 
-TEST(Meeting, values_are_the_same_bits_with_fused_operations) {
-    Random random(12);
-    int tame = 0;
-    for (int i = 0; i < 300'000; ++i) {
-        const test::Pair pair = pair_of(random);
-        Measured measured;
-        measure_path<double>(pair.corners, pair.path, measured);
-        Values plain;
-        k_refine(measured, plain);
-        tame += plain.good ? 1 : 0;
-        for (const Backend* backend : backends()) {
-            Values other;
-            (*backend->refine)(measured, other);
-            ASSERT_EQ(plain.good, other.good) << describe(pair);
-            const bool same = !plain.good || std::memcmp(&plain, &other, offsetof(Values, good)) == 0;
-            ASSERT_TRUE(same) << backend->name << ' ' << describe(pair);
-        }
+/// What the two tables differ in; empty: nothing. Vectors of values have three numbers.
+template <class Scalar>
+std::string difference(const NarrowKernels<Scalar>& one, const NarrowKernels<Scalar>& two, const test::Pair& pair, Random& random,
+                       int& hits) {
+    std::array<Scalar, 9> numbers{};
+    for (std::size_t k = 0; k < 9; ++k) numbers[k] = static_cast<Scalar>(pair.corners[k / 3][k % 3]);
+    const Row<Scalar> row{numbers.data(), 1};
+    const auto sides = std::array{Sides::front, Sides::back, Sides::both}[random.below(3)];
+    Filtered x{};
+    Filtered y{};
+    Measured of_x;
+    Measured of_y;
+    one.filter(row, pair.path.from.data(), pair.path.to.data(), sides, x, of_x);
+    two.filter(row, pair.path.from.data(), pair.path.to.data(), sides, y, of_y);
+    if (x.verdict != y.verdict || x.decision.hit != y.decision.hit || x.decision.at_start != y.decision.at_start) return "verdict";
+    if (x.verdict != Verdict::miss && (x.earliest != y.earliest || x.latest != y.latest)) return "interval";
+    const double grain = std::ldexp(1.0, random.between_ints(-60, 10));
+    for (const auto evaluate : {&NarrowKernels<Scalar>::evaluate, &NarrowKernels<Scalar>::evaluate_finely}) {
+        Values v{};
+        Values w{};
+        Rounded<Scalar> r{};
+        Rounded<Scalar> s{};
+        (one.*evaluate)(of_x, Sides::front, grain, v, r);
+        (two.*evaluate)(of_y, Sides::front, grain, w, s);
+        const auto same = [](const auto& p, const auto& q, std::size_t count) {
+            return std::memcmp(p, q, count * sizeof *p) == 0;
+        };
+        if (v.weight_error != w.weight_error) return "good";
+        if (!std::isfinite(v.weight_error)) continue;
+        ++hits;
+        if (!same(v.weights, w.weights, 4) || v.fraction_error != w.fraction_error) return "weights";
+        if (!same(v.normal, w.normal, 3) || !same(v.normal_errors, w.normal_errors, 3) || v.normal_error != w.normal_error ||
+            v.length != w.length || v.length_error != w.length_error || v.distance != w.distance)
+            return "normal";
+        if (!same(v.high, w.high, 3) || !same(v.low, w.low, 3) || !same(v.error, w.error, 3)) return "place";
+        if (!same(v.position, w.position, 3) || v.rounded != w.rounded || v.located != w.located) return "position";
+        if (!same(v.point, w.point, 3) || v.tried != w.tried) return "point";
+        if (!same(r.point, s.point, 3) || !same(r.position, s.position, 3) || !same(r.normal, s.normal, 3) || !same(r.weights, s.weights, 4))
+            return "rounded";
     }
-    EXPECT_GT(tame, 30'000);
+    return {};
 }
+
+template <class Scalar>
+void compare_narrow_phases() {
+    Random random(12);
+    int hits = 0;
+    for (int i = 0; i < 300'000; ++i) {
+        test::Pair pair = pair_of(random);
+        for (Point* p : {&pair.path.from, &pair.path.to, &pair.corners[0], &pair.corners[1], &pair.corners[2]})
+            for (double& x : *p) x = static_cast<double>(static_cast<Scalar>(x));
+        for (const Backend* backend : backends())
+            ASSERT_EQ(difference(k_narrow.of<Scalar>(), backend->narrow->of<Scalar>(), pair, random, hits), "")
+                << backend->name << ' ' << describe(pair);
+    }
+    EXPECT_GT(hits, 30'000);
+}
+
+TEST(Meeting, narrow_phases_of_floats_are_the_same_bits_with_fused_operations) { compare_narrow_phases<float>(); }
+TEST(Meeting, narrow_phases_of_doubles_are_the_same_bits_with_fused_operations) { compare_narrow_phases<double>(); }
 
 }  // namespace
 }  // namespace pierce::test

@@ -66,6 +66,9 @@ class NaiveMesh {
         detail::Decision decision;
     };
 
+    // Plain arithmetic, whatever the library uses on this machine.
+    static const detail::NarrowKernels<Scalar>& narrow() { return detail::k_narrow.of<Scalar>(); }
+
     static detail::Path path_of(const Segment<Scalar>& segment) {
         return {detail::to_point(segment.from), detail::to_point(segment.to)};
     }
@@ -95,7 +98,7 @@ class NaiveMesh {
                 QueryCounters unused;
                 detail::Measured measured;
                 detail::measure_path<Scalar>(corners_[i], path, measured);
-                const detail::Measures m = detail::CertifiedFace<double>(path, measured, decision, detail::k_refine, unused).measures();
+                const detail::Measures m = detail::fine_measures(narrow(), measured, path, decision, unused);
                 if (!options.accept({faces_[i], i, decision.side, decision.feature, decision.feature_index,
                                      decision.at_start, m.fraction, {m.barycentric[0], m.barycentric[1], m.barycentric[2]}}))
                     continue;
@@ -144,16 +147,15 @@ class NaiveMesh {
         QueryCounters unused;
         detail::Measured measured;
         detail::measure_path<Scalar>(corners_[triangle], path, measured);
-        // In the plain arithmetic, whatever the library uses on this machine.
-        detail::CertifiedFace<Scalar> face(path, measured, found[i].decision, detail::k_refine, unused);
-        const detail::Point normal = face.normal();
+        detail::Values values;
+        detail::Rounded<Scalar> rounded;
         Hit<Scalar> hit{};
-        const detail::Measures measures = face.measures();
-        detail::report(measures, normal, found[i].decision, faces_[triangle], triangle, hit);
+        detail::certify(narrow(), measured, path, found[i].decision, grain_, unused, values, rounded);
+        detail::report(rounded, found[i].decision, faces_[triangle], triangle, hit);
         QueryOptions whole = options;
         whole.max_fraction = 1;
         const OtherWays ways{*this, path, found, i, whole};
-        detail::place<Scalar>(path, corners_[triangle], found[i].decision, grain_, measures.fraction, face, unused, ways, hit);
+        detail::place(path, measured, found[i].decision, grain_, values, rounded, unused, ways, hit);
         return hit;
     }
 
