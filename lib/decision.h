@@ -20,15 +20,13 @@ struct Decision {
 [[nodiscard]] constexpr bool passes_front(int from, int to) { return from >= 0 && to < 0; }
 
 /// Whether they pass it from its back. On the plane counts as behind for `back`, which is `front` mirrored; for `both`
-/// as in
-/// front, so that a hit is a change of side: a point on the plane can leave it to the front.
+/// as in front, so that a hit is a change of side: a point on the plane can leave it to the front.
 [[nodiscard]] constexpr bool passes_back(int from, int to, Sides sides) {
     return sides == Sides::both ? from < 0 && to >= 0 : from <= 0 && to > 0;
 }
 
 /// The ends pass the plane from a side that counts, and the segment meets the closed triangle. `from`, `to`: the signs
-/// of the ends' sides;
-/// `weight(k)`: that of corner k's weight times their difference. It is asked only if it matters.
+/// of the ends' sides; `weight(k)`: that of corner k's weight times their difference. It is asked only if it matters.
 template <class Weight>
 [[nodiscard]] Decision closed_rule(int from, int to, Sides sides, Weight&& weight) {
     Decision decision;
@@ -37,8 +35,7 @@ template <class Weight>
     if (!front && !back) return decision;
 
     // The sides differ, so the line pierces the plane in one point, and the three weights, which add up to the
-    // difference of the sides, have
-    // the sign of that inside and zero on an edge.
+    // difference of the sides, have the sign of that inside and zero on an edge.
     int zeros = 0;
     int last_zero = 0;
     int last_nonzero = 0;

@@ -9,8 +9,8 @@
 
 namespace pierce {
 
-/// Vertices with equal coordinates count as one here, whatever their numbers: that is how queries see them. Triangles of area
-/// zero are counted, and left out of the rest. Lists hold the first `k_examples` cases.
+/// Vertices with equal coordinates count as one here, whatever their numbers: that is how queries see them. Triangles
+/// of area zero are counted, and left out of the rest. Lists hold the first `k_examples` cases.
 struct MeshReport {
     static constexpr std::size_t k_examples = 8;
     using Edge = std::array<std::uint32_t, 2>;  ///< numbers of positions
@@ -32,8 +32,8 @@ struct MeshReport {
     std::vector<std::uint32_t> non_manifold_vertex_list;
     std::vector<std::uint32_t> t_junction_list;
 
-    /// No edge has more triangles on one side than on the other: then the surface has an inside, `crossings` add up, and no
-    /// particle gets from one side to the other without a hit.
+    /// No edge has more triangles on one side than on the other: then the surface has an inside, `crossings` add up,
+    /// and no particle gets from one side to the other without a hit.
     [[nodiscard]] bool closed() const { return border_edges == 0 && misoriented_edges == 0; }
 
     /// A few lines for people.

@@ -1,6 +1,6 @@
 // What certainty costs: how often the exact room is entered on real meshes, and the time of exact first hits over that
-// of their inexact
-// twin. Where the two find different triangles, it says how often. And what each part of an answer costs.
+// of their inexact twin. Where the two find different triangles, it says how often. And what each part of an answer
+// costs.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -18,8 +18,7 @@ namespace {
 using namespace detail;
 
 /// The inexact twin: the same code with the sign of each double taken as final, and values, normals and places straight
-/// from the doubles. A plain
-/// floating-point library, in effect.
+/// from the doubles. A plain floating-point library, in effect.
 struct Trusting {
     template <class Scalar>
     static bool test(const Corners& corners, TriangleRef triangle, const Path& path, Sides sides, double limit, QueryCounters&, Measured& x,

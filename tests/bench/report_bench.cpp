@@ -82,8 +82,8 @@ Soup spindle(std::uint32_t count) {
     return soup;
 }
 
-/// Triangles with random corners in a cube, or (flat) in a square: each edge is a border, and passes among many
-/// others' ends.
+/// Triangles with random corners in a cube, or (flat) in a square: each edge is a border, and passes among many others'
+/// ends.
 Soup random_triangles(std::uint32_t count, bool flat) {
     test::Random random(4);
     Soup soup;

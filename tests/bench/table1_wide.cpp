@@ -97,8 +97,8 @@ Contest wide_contest(const Pairs& pairs) {
     enter(contest, "mcguire", kernels::McGuire{.epsilon = 0}, pairs, segments);
     enter(contest, "watertight", kernels::Watertight{}, pairs, segments);
     // No fan: it stores several triangles, and what pays for that, the turn from one to the next, is not there with
-    // one; a wide fan of n would
-    // also need pairs whose eight fans all have n triangles. With one it would be another Baldwin-Weber of 12 numbers.
+    // one; a wide fan of n would also need pairs whose eight fans all have n triangles. With one it would be another
+    // Baldwin-Weber of 12 numbers.
     return contest;
 }
 

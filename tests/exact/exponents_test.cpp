@@ -1,6 +1,6 @@
 // The exact room for coordinates whose exponents have nothing to do with one another, against rational numbers:
-// subnormal, huge and ordinary ones in
-// one triangle. The other tests scale all coordinates alike and never leave the integers of a fixed width.
+// subnormal, huge and ordinary ones in one triangle. The other tests scale all coordinates alike and never leave the
+// integers of a fixed width.
 #include <gtest/gtest.h>
 #include <exact/crossing.h>
 #include <exact/fraction.h>

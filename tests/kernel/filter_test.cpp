@@ -1,6 +1,5 @@
 // The filter is never wrong when it is certain: a million decisions against exact rational arithmetic, and a hundred
-// million in the
-// slow run. Both scalar types; all sizes from the smallest to the largest numbers there are.
+// million in the slow run. Both scalar types; all sizes from the smallest to the largest numbers there are.
 #include <atomic>
 #include <thread>
 
@@ -104,8 +103,7 @@ void run(std::int64_t decisions, int lowest_power, int highest_power) {
         for (std::int64_t i = 0; i < share && tally.wrong == 0; i += 4) {
             const auto family = static_cast<Family>(random.below(k_family_names.size()));
             // The size of everyday coordinates; any size that the filter works in, and those where its products become
-            // denormal or
-            // overflow; and both ends of the range.
+            // denormal or overflow; and both ends of the range.
             int power = random.between_ints(-20, 20);
             const double kind = random.unit();
             if (kind < 0.3) power = random.between_ints(std::max(lowest_power, -380), std::min(highest_power, 360));

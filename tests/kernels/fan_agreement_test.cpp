@@ -1,30 +1,25 @@
 // Real fans against the exact kernel over their triangles: they differ only where the pair lies within the fan's error
-// of a boundary of the
-// decision, and values are right within the same error.
+// of a boundary of the decision, and values are right within the same error.
 //
 // The error. u is the unit of rounding (2^-24, 2^-53). Of a point or vector p, let x_j be its coordinates in the basis
-// B_j = (AB, AC, N) of
-// triangle j, x_0 = first map, x_j = M_j x_{j-1}. What step j commits, d_j, is handed on exactly, by the true change of
-// basis B_k^-1 B_j:
+// B_j = (AB, AC, N) of triangle j, x_0 = first map, x_j = M_j x_{j-1}. What step j commits, d_j, is handed on exactly,
+// by the true change of basis B_k^-1 B_j:
 //   error of x_k = sum over j <= k of |B_k^-1 B_j| d_j
-// The first map's rows r come from cross products over N.N. N is off by a few u |AB| |AC|, that is, with A = |AB| |AC|
-// / |N|, one over the sine of
-// the angle at the apex, by a few u A of its length. A row is off by as much of its length:  d_0 = K u A |r| s, where s
-// = |p| + |apex| for the
-// start and |p| for the way back, which has no offset. The six numbers of a turn are triple products over N.N. With
-// sizes in place of products,
-// X = AB and Z = AD, the largest that they can be is
-//   |a| <= |X| |Z| / |N|   |b| <= |AC| |X| / |N|   |c| <= |X| / |N|   |d| <= |N_old| |Z| / |N|   |e| <= |AC| |N_old| / |N|   |f| <= |N_old| / |N|
+// The first map's rows r come from cross products over N.N. N is off by a few u |AB| |AC|, that is, with
+// A = |AB| |AC| / |N|, one over the sine of the angle at the apex, by a few u A of its length. A row is off by as much of
+// its length: d_0 = K u A |r| s, where s = |p| + |apex| for the start and |p| for the way back, which has no offset. The
+// six numbers of a turn are triple products over N.N. With sizes in place of products, X = AB and Z = AD, the largest
+// that they can be is
+//   |a| <= |X| |Z| / |N|       |b| <= |AC| |X| / |N|       |c| <= |X| / |N|
+//   |d| <= |N_old| |Z| / |N|   |e| <= |AC| |N_old| / |N|   |f| <= |N_old| / |N|
 // they are off by a few u A of that, and the sum of their products with x_{j-1} has an error of a few u of the same:
 //   d_j = K u A_j C_j |x_{j-1}|, where C_j are these bounds, and 1 where v is added as it is.
-// The line meets the plane at t = w / b of the start's w and the way's b: off by (dw + t db) / |b| + u. u = u_start - t
-// u_back is then off by
-// du_start + t du_back + |u_back| dt, and u of the coordinates' own size. K counts the roundings in the longest chain
-// of a step: 1 for an
-// edge, 2 for a cross product, twice, 3 for a product of vectors, 3 for N.N and the division, 4 for the sum, a fraction
-// and three more where the
-// last triangle is judged by z: about 20, were all of one sign and size. The test is run with 8; the largest that was
-// seen is half of it (0.50; compilers draw other samples).
+// The line meets the plane at t = w / b of the start's w and the way's b: off by (dw + t db) / |b| + u.
+// u = u_start - t u_back is then off by du_start + t du_back + |u_back| dt, and u of the coordinates' own size. K
+// counts the roundings in the longest chain of a step: 1 for an edge, 2 for a cross product, twice, 3 for a product of
+// vectors, 3 for N.N and the division, 4 for the sum, a fraction and three more where the last triangle is judged by z:
+// about 20, were all of one sign and size. The test is run with 8; the largest that was seen is half of it (0.50;
+// compilers draw other samples).
 #include <cstdio>
 #include <limits>
 #include <map>

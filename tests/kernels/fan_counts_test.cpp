@@ -41,12 +41,10 @@ void expect_within(const Counts& counts, int n) {
 }
 
 // No geometry has each plane of a fan met nearer than the one before, always in the same place. Numbers do: each change
-// of basis is chosen so
-// that the line meets the next plane a little earlier, at u = v = `at`. With 1/4 every triangle is hit, and the last is
-// the answer; with
-// 3/4 all but the first are rejected by u + v <= 1, the last condition, and the first is the answer. So every operation
-// that the code has is run
-// but the difference v = z - u of the one that is not the answer.
+// of basis is chosen so that the line meets the next plane a little earlier, at u = v = `at`. With 1/4 every triangle
+// is hit, and the last is the answer; with 3/4 all but the first are rejected by u + v <= 1, the last condition, and
+// the first is the answer. So every operation that the code has is run but the difference v = z - u of the one that is
+// not the answer.
 Counts worst_case(int n, double at, std::size_t& which) {
     const TriangleFan::First<double> first{{{1, 0, 0}, 0}, {{1, 1, 0}, 0}, {{0, 0, 1}, 0}};
     const D from(0.125, 0.25, 1);

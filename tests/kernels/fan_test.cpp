@@ -68,8 +68,7 @@ std::pair<double, int> at_scale(int exponent, std::size_t n) {
 }
 
 // Powers of two change nothing: each error is that of 2^0, to the bit, and all answers are right. Edges are 0.5 to 1.1
-// long, so the exponents of
-// the documented range are those with one to spare.
+// long, so the exponents of the documented range are those with one to spare.
 template <class Scalar>
 void expect_range() {
     constexpr int range = kernels::k_fan_range<Scalar>;

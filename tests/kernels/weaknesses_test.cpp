@@ -72,8 +72,7 @@ bool hit_with_published_signs(const std::array<D, 3>& t, const D& from, const D&
 }
 
 // Triangles of size 1 and segments through their inside. Of the point where the segment meets the plane the listing has
-// from's part right
-// and to's mirrored in the origin: two thirds are lost there, all at ten times the size away from it.
+// from's part right and to's mirrored in the origin: two thirds are lost there, all at ten times the size away from it.
 TEST(KernelWeaknesses, BloomsPublishedSignsLoseMostHits) {
     for (const double offset : {0.0, 10.0}) {
         Random random(2);

@@ -1,6 +1,5 @@
 // What batches are tried with: a mesh of lattice and random triangles whose faces are cut into several, and segments of
-// all kinds,
-// finite and not.
+// all kinds, finite and not.
 #pragma once
 
 #include <limits>
@@ -25,8 +24,7 @@ TriangleSoup<Scalar> lattice_and_shards() {
 }
 
 /// One in thirty has a coordinate that is NaN or infinite; a few are of no length, miss the mesh's box, or reach so far
-/// that every
-/// triangle is asked.
+/// that every triangle is asked.
 template <class Scalar>
 std::vector<Segment<Scalar>> batch_segments(const MeshView<Scalar>& mesh, std::size_t count, std::uint64_t seed) {
     constexpr auto infinity = std::numeric_limits<Scalar>::infinity();

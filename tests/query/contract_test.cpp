@@ -240,8 +240,7 @@ TEST(Contract, all_hits_counts_what_it_leaves_out) {
 
 TEST(Contract, of_two_hits_at_one_place_neither_hides_the_other_from_its_point) {
     // A ridge of two slopes, hit on the ridge itself from many sides: both faces are hit at the same fraction, so the
-    // way to either
-    // point must be clear of both.
+    // way to either point must be clear of both.
     const TriangleSoup<double> soup{{V(0, -1, 0), V(0, 1, 0), V(1, 0, -0.7), V(-1, 0, -0.3)}, {{0, 2, 1}, {0, 1, 3}}, {}};
     const CollisionMesh<double> mesh(soup.view());
     Random random(4);
@@ -334,10 +333,8 @@ TEST(Contract, coordinates_at_both_ends_of_the_range) {
 }
 
 // A hit's point need not lie on the segment: the way to it is clear, it keeps off the plane by a grain (or as far as
-// the start), it is near the true
-// one, and who goes on from there to the same end is stopped again, for certain where the way's own triangle is met
-// further from its edges than
-// the point may lie aside.
+// the start), it is near the true one, and who goes on from there to the same end is stopped again, for certain where
+// the way's own triangle is met further from its edges than the point may lie aside.
 template <class Scalar>
 void expect_verified(const TriangleSoup<Scalar>& soup, std::uint64_t seed) {
     const CollisionMesh<Scalar> mesh(soup.view());

@@ -1,6 +1,5 @@
 // Crossings count each passage through the surface once: on lattices, where nearly every segment is degenerate, against
-// the cubes
-// that the surface bounds; on real closed meshes against CGAL.
+// the cubes that the surface bounds; on real closed meshes against CGAL.
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
 #include <support/inside_oracle.h>

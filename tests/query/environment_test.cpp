@@ -74,8 +74,7 @@ TEST(Environment, changes_no_bit) {
 }
 
 // Threads that a build is given may have settings of their own, as a game's pool has that was made to flush: a mesh of
-// denormal numbers
-// had no area then, and a raster that rounds otherwise than the query's lost triangles.
+// denormal numbers had no area then, and a raster that rounds otherwise than the query's lost triangles.
 template <class Scalar>
 void expect_same_builds(const char* what, double scale) {
     SCOPED_TRACE(what);

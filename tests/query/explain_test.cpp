@@ -1,10 +1,8 @@
 // Every reason, and every edge named, is that of rational arithmetic on each face by itself.
 //
 // The tests of small cases never had a face with the segment wholly behind it, nor one passed from its back outside of
-// an
-// edge, nor one passed beyond a corner, outside of two edges at once: code that never said `behind`, took the wrong
-// sign for
-// backs or named the higher of two edges passed them.
+// an edge, nor one passed beyond a corner, outside of two edges at once: code that never said `behind`, took the wrong
+// sign for backs or named the higher of two edges passed them.
 #include <map>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // A user's program that is compiled and linked with -ffast-math, which also makes the processor flush denormal numbers:
-// the library's
-// answers are the same. Ends with status 1 and a line for each that is not.
+// the library's answers are the same. Ends with status 1 and a line for each that is not.
 #include <bit>
 #include <cstdint>
 #include <cstdio>

@@ -2,8 +2,7 @@
 // moved.
 //
 // On polycubes every plane is parallel to an axis, its normal has one component, and the tie rule of planes, the sign
-// of
-// normal . (e, e^2, e^3), can take the components in any order: code that took them backwards passed all tests. Here
+// of normal . (e, e^2, e^3), can take the components in any order: code that took them backwards passed all tests. Here
 // are tetrahedra, octahedra and sheared boxes with whole-numbered corners, which share corners and planes, and single
 // triangles.
 #include <algorithm>

@@ -1,6 +1,5 @@
 // On real meshes the grid and the naive twin give the same bits: 14 meshes, 10^5 segments each for both scalar types,
-// of all
-// lengths.
+// of all lengths.
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
 #include <support/expect_hit.h>

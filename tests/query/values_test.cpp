@@ -1,6 +1,6 @@
 // The values of a hit are those of the true intersection, within the units in the last place that hit.h documents:
-// against rational
-// numbers, for float and double, on generic and on delicate pairs, whichever arithmetic they came from.
+// against rational numbers, for float and double, on generic and on delicate pairs, whichever arithmetic they came
+// from.
 #include <gtest/gtest.h>
 #include <pierce/pierce.h>
 #include <query/values.h>

@@ -4,10 +4,9 @@
 // What the wide kernels refused for the segment is not asked again for the way to the point: their bounds have to allow
 // for its rounding.
 // With no room for it, or where a start that lies on a plane was taken to be on one side of it because the segment's
-// end is, every other
-// test passed: random meshes have no triangles within a rounding of a segment. Here there are blades, planes through
-// two points that
-// are within some roundings of the segment, and planes through its start. The judge is the naive twin.
+// end is, every other test passed: random meshes have no triangles within a rounding of a segment. Here there are
+// blades, planes through two points that are within some roundings of the segment, and planes through its start. The
+// judge is the naive twin.
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
@@ -86,12 +85,9 @@ void compare() {
 }
 
 // A large wall across the way, in a level of its own, and in front of it a row of small triangles that begins right
-// beside the segment; a cell of
-// theirs is six units in the last place of the coordinates. The segment passes by the box of their level, the way to
-// its rounded point
-// does not. That level was not asked at all, and the other one's triangles were taken for all that could be in the way:
-// one point of
-// twenty was behind the row.
+// beside the segment; a cell of theirs is six units in the last place of the coordinates. The segment passes by the box
+// of their level, the way to its rounded point does not. That level was not asked at all, and the other one's triangles
+// were taken for all that could be in the way: one point of twenty was behind the row.
 template <class Scalar>
 void pass_by_a_level(double far, double unit) {
     Random random(3);

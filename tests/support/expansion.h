@@ -1,6 +1,5 @@
 // orient3d by floating-point expansions (Shewchuk 1997, sections 2.3 to 2.8), without adaptivity: a second opinion for
-// the exact room, and
-// what it is measured against. Right only while nothing overflows or underflows.
+// the exact room, and what it is measured against. Right only while nothing overflows or underflows.
 #pragma once
 
 #include <array>

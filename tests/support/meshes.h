@@ -39,8 +39,7 @@ TriangleSoup<Scalar> turned_inside_out(TriangleSoup<Scalar> soup) {
 }
 
 /// A closed surface around the origin, of 8 n^2 triangles facing outwards: an octahedron, divided n times along each
-/// edge, whose
-/// point in direction d is put at d * radius(d).
+/// edge, whose point in direction d is put at d * radius(d).
 template <class Radius>
 TriangleSoup<double> star(int n, Radius&& radius) {
     TriangleSoup<double> soup;
@@ -93,8 +92,7 @@ inline TriangleSoup<double> bowl(int n) {
 }
 
 /// A random set of unit cubes within size^3 and its boundary, scaled by `edge`: closed, on a lattice, full of coplanar
-/// faces, with edges
-/// and vertices that more than two faces meet in. The diagonal of each square is random.
+/// faces, with edges and vertices that more than two faces meet in. The diagonal of each square is random.
 struct Polycube {
     Polycube(int cubes, double filled, int edge_length, std::uint64_t seed) : size(cubes), edge(edge_length) {
         Random random(seed);

@@ -1,6 +1,5 @@
 // The naive twin of CollisionMesh: the same interface with no grid and no filter. Every triangle is decided in exact
-// arithmetic; the
-// only shortcut compares the boxes of segment and triangle, which no rounding can touch.
+// arithmetic; the only shortcut compares the boxes of segment and triangle, which no rounding can touch.
 #pragma once
 
 #include <algorithm>

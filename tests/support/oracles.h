@@ -10,8 +10,7 @@
 namespace pierce::test {
 
 /// The rule by CGAL 5.5, exact predicates on doubles. For a triangle of area zero or a segment of length zero CGAL's
-/// answers are
-/// undefined: `defined` says whether the pair is neither.
+/// answers are undefined: `defined` says whether the pair is neither.
 class CgalOracle {
   public:
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -37,8 +36,7 @@ class CgalOracle {
 };
 
 /// The rule by construction in rational numbers: the point where the line meets the plane, and its barycentric
-/// coordinates in
-/// the projection along the largest component of the normal. Total, and slow.
+/// coordinates in the projection along the largest component of the normal. Total, and slow.
 class RationalOracle {
   public:
     using Q = CGAL::Gmpq;

@@ -1,19 +1,22 @@
-// Baldwin and Weber's test: the affine map that takes the triangle to (0,0,0), (1,0,0), (0,1,0), as twelve numbers or as nine.
+// Baldwin and Weber's test: the affine map that takes the triangle to (0,0,0), (1,0,0), (0,1,0), as twelve numbers or
+// as nine.
 //
-// Source: Baldwin and Weber 2016, "Fast Ray-Triangle Intersections by Coordinate Transformation", sections 2 and 3. Our derivation of the
-// inverse: every point is p = a + u E1 + v E2 + w f, with E1 = b - a, E2 = c - a, and a "free vector" f that only must not lie in
-// the plane. Multiplying p - a by E2 x f removes E2 and f, by f x E1 removes E1 and f, by n = E1 x E2 removes E1 and E2:
+// Source: Baldwin and Weber 2016, "Fast Ray-Triangle Intersections by Coordinate Transformation", sections 2 and 3. Our
+// derivation of the inverse: every point is p = a + u E1 + v E2 + w f, with E1 = b - a, E2 = c - a, and a "free vector"
+// f that only must not lie in the plane. Multiplying p - a by E2 x f removes E2 and f, by f x E1 removes E1 and f, by
+// n = E1 x E2 removes E1 and E2:
 //   u = (E2 x f) . (p - a) / n.f      v = (f x E1) . (p - a) / n.f      w = n . (p - a) / n.f
-// Let k be the axis of n's largest component, (k, i, j) the axes in cyclic order, and s the sign of n_k. With f = s e_k, n.f = |n_k| and
+// Let k be the axis of n's largest component, (k, i, j) the axes in cyclic order, and s the sign of n_k. With
+// f = s e_k, n.f = |n_k| and
 //   u = ( E2_j (p-a)_i - E2_i (p-a)_j) / n_k
 //   v = (-E1_j (p-a)_i + E1_i (p-a)_j) / n_k
 //   w = s (p-a)_k + (n_i (p-a)_i + n_j (p-a)_j) / |n_k|
 // Two coefficients of column k are 0 and one is s: what remains are nine numbers and which column, with its sign.
 //
-// Departures: the source takes f = e_k, so that w > 0 may be either side; with the sign it is the front, always. And it divides first;
-// here both ends of the segment are transformed, and with F = w(from), T = w(to) and D = F - T the weights at the plane times D are
-// F u(to) - T u(from) and F v(to) - T v(from). Some entries of the printed inverses are hard to read; tests/kernels/inverse_test.cpp
-// applies ours to the corners.
+// Departures: the source takes f = e_k, so that w > 0 may be either side; with the sign it is the front, always. And it
+// divides first; here both ends of the segment are transformed, and with F = w(from), T = w(to) and D = F - T the
+// weights at the plane times D are F u(to) - T u(from) and F v(to) - T v(from). Some entries of the printed inverses
+// are hard to read; tests/kernels/inverse_test.cpp applies ours to the corners.
 #pragma once
 
 #include <cmath>
@@ -25,7 +28,8 @@
 
 namespace pierce::kernels {
 
-/// Which column of the map holds (0, 0, s): the axis k, plus 3 where s is -1. One byte; for numbers with lanes a number in each.
+/// Which column of the map holds (0, 0, s): the axis k, plus 3 where s is -1. One byte; for numbers with lanes a number
+/// in each.
 template <class Number>
 using Column = std::conditional_t<std::is_arithmetic_v<Number>, std::uint8_t, Number>;
 
@@ -53,9 +57,9 @@ template <class Number>
     return select(column < Number(3), x, -x);
 }
 
-/// Twelve numbers: the three rows of the map. Of either side, by `sides`. In range where `Bloom` is; a computed normal of zero
-/// gives zeros, which nothing hits. Neighbours that share an edge compute it from different rows: a segment aimed at the edge can
-/// pass between them, and can hit both.
+/// Twelve numbers: the three rows of the map. Of either side, by `sides`. In range where `Bloom` is; a computed normal
+/// of zero gives zeros, which nothing hits. Neighbours that share an edge compute it from different rows: a segment
+/// aimed at the edge can pass between them, and can hit both.
 struct BaldwinWeber12 {
     Sides sides = Sides::front;
 
