@@ -91,8 +91,8 @@ class CollisionMesh {
                              std::span<std::optional<SweepHit<Scalar>>> out, const BatchOptions& options = {}) const;
 
     /// The same for points as the columns of matrices, which may be blocks or maps of others.
-    std::size_t first_hits(const Points<Scalar>& from, const Points<Scalar>& to, std::span<std::optional<Hit<Scalar>>> out,
-                           const BatchOptions& options = {}) const;
+    std::size_t first_hits(const Points<Scalar>& from, const Points<Scalar>& to,
+                           std::span<std::optional<Hit<Scalar>>> out, const BatchOptions& options = {}) const;
     std::size_t any_hits(const Points<Scalar>& from, const Points<Scalar>& to, std::span<std::uint8_t> out,
                          const BatchOptions& options = {}) const;
     std::size_t sweep_points(const Points<Scalar>& from, const Points<Scalar>& to,
@@ -116,7 +116,8 @@ class CollisionMesh {
     /// Why each face near the segment is its first hit or is not, in the order of triangles. Near are those whose box
     /// is no further from the segment's, along each axis, than that is long along its longest. For debugging: it looks
     /// at all faces, in exact arithmetic where boxes overlap, and takes memory for the answer.
-    [[nodiscard]] std::vector<FaceVerdict> explain(const Segment<Scalar>& segment, const QueryOptions& options = {}) const;
+    [[nodiscard]] std::vector<FaceVerdict> explain(const Segment<Scalar>& segment,
+                                                   const QueryOptions& options = {}) const;
 
     /// What is odd about the mesh, and whether it can keep particles in. Computed anew by each call, on one thread.
     /// On a closed mesh in about the time of a build (n log n for n triangles around one vertex). Each border edge

@@ -16,7 +16,7 @@ namespace pierce {
 /// ring[k + 1]), with the same orientation as in the mesh.
 struct Fan {
     std::uint32_t apex = 0;
-    std::vector<std::uint32_t> ring;       ///< vertices: one more than triangles; the first again at the end if the fan is closed
+    std::vector<std::uint32_t> ring;       ///< vertices, one more than triangles; a closed fan's last is its first
     std::vector<std::uint32_t> triangles;  ///< their places in `MeshView::triangles`
 
     [[nodiscard]] bool closed() const { return ring.size() > 3 && ring.front() == ring.back(); }

@@ -43,14 +43,14 @@ struct BuildOptions {
 /// each thread.
 struct QueryCounters {
     std::uint64_t queries = 0;
-    std::uint64_t nodes = 0;           ///< nodes of the tree, or cells of the grid, visited
-    std::uint64_t clusters = 0;        ///< clusters of up to eight triangles given to the wide kernels
-    std::uint64_t triangles = 0;       ///< triangles that those could not refuse
-    std::uint64_t exact_decisions = 0; ///< triangles that the filter left doubtful
-    std::uint64_t exact_orders = 0;    ///< pairs of hits too close to be ordered without exact arithmetic
-    std::uint64_t exact_values = 0;    ///< times that a hit's fraction and weights, or its normal, took exact arithmetic
-    std::uint64_t exact_sides = 0;     ///< points so close to a face's plane that their side took exact arithmetic
-    std::uint64_t retreats = 0;        ///< places for verified points that were not clear
+    std::uint64_t nodes = 0;            ///< nodes of the tree, or cells of the grid, visited
+    std::uint64_t clusters = 0;         ///< clusters of up to eight triangles given to the wide kernels
+    std::uint64_t triangles = 0;        ///< triangles that those could not refuse
+    std::uint64_t exact_decisions = 0;  ///< triangles that the filter left doubtful
+    std::uint64_t exact_orders = 0;     ///< pairs of hits too close to be ordered without exact arithmetic
+    std::uint64_t exact_values = 0;     ///< times that fraction and weights, or the normal, took exact arithmetic
+    std::uint64_t exact_sides = 0;      ///< points so close to a face's plane that their side took exact arithmetic
+    std::uint64_t retreats = 0;         ///< places for verified points that were not clear
 };
 
 /// A hit before it is weighed against others: what `QueryOptions::accept` is asked about.

@@ -20,7 +20,9 @@ struct TriangleSoup {
 
     [[nodiscard]] MeshView<Scalar> view() const { return {positions, triangles, faces}; }
     /// How many faces the file had; with polygons in it, fewer than it has triangles.
-    [[nodiscard]] std::size_t face_count() const { return faces.empty() ? triangles.size() : faces.back() + std::size_t{1}; }
+    [[nodiscard]] std::size_t face_count() const {
+        return faces.empty() ? triangles.size() : faces.back() + std::size_t{1};
+    }
 };
 
 /// Reads OBJ, OFF, PLY (ascii and binary, both byte orders) or STL (ascii and binary); the kind is told from the name's

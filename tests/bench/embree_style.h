@@ -34,7 +34,8 @@ struct EmbreeStyle {
     }
 
     template <class Number>
-    kernels::Tested<Number> evaluate(const Stored<Number>& t, const kernels::Triple<Number>& from, const kernels::Triple<Number>& to) const {
+    kernels::Tested<Number> evaluate(const Stored<Number>& t, const kernels::Triple<Number>& from,
+                                     const kernels::Triple<Number>& to) const {
         const Number zero{};
         const auto back = from - to;
         const Number det = dot(back, t.normal);

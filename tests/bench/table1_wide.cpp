@@ -38,7 +38,8 @@ struct Segments {
 };
 
 template <class Kernel>
-void enter(Contest& contest, const std::string& name, const Kernel& kernel, const Pairs& pairs, const std::shared_ptr<Segments>& segments) {
+void enter(Contest& contest, const std::string& name, const Kernel& kernel, const Pairs& pairs,
+           const std::shared_ptr<Segments>& segments) {
     using Narrow = typename Kernel::template Stored<float>;
     using Broad = typename Kernel::template Stored<Number>;
     auto stored = std::make_shared<std::vector<Broad>>(in_blocks<Broad, Narrow>(pairs.size(), [&](std::size_t i) {

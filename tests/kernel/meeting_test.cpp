@@ -27,7 +27,9 @@ struct Exact {
         const auto cross = [](const Vector& x, const Vector& y) {
             return Vector{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
         };
-        const auto dot = [](const Vector& x, const Vector& y) { return mpz_class(x[0] * y[0] + x[1] * y[1] + x[2] * y[2]); };
+        const auto dot = [](const Vector& x, const Vector& y) {
+            return mpz_class(x[0] * y[0] + x[1] * y[1] + x[2] * y[2]);
+        };
         const Vector a = minus(corners[0], path.from);
         const Vector b = minus(corners[1], path.from);
         const Vector c = minus(corners[2], path.from);
@@ -79,7 +81,8 @@ void judge(const test::Pair& pair, double tolerance, Tally& tally) {
     check("w_c", -lane(meeting.vc, 1), exact.w[2], 9 * u * measured.bar_vc[1], 3 * k_unit);
     const auto a = lane(meeting.sb, 0) - lane(meeting.sb, 1) - -lane(meeting.vc, 1);
     check("w_a", a, exact.w[0], 12 * u * (measured.bar_sb[0] + measured.bar_sb[1] + measured.bar_vc[1]), 3 * k_unit);
-    check("v - s", lane(meeting.vc, 0) - lane(meeting.sb, 0), exact.v - exact.s, 10 * u * (measured.bar_sb[0] + measured.bar_vc[0]), 3 * k_unit);
+    check("v - s", lane(meeting.vc, 0) - lane(meeting.sb, 0), exact.v - exact.s,
+          10 * u * (measured.bar_sb[0] + measured.bar_vc[0]), 3 * k_unit);
 
     Values values;
     evaluate(measured, meeting, values);
@@ -88,13 +91,15 @@ void judge(const test::Pair& pair, double tolerance, Tally& tally) {
         const double error = error_in(values.spot.normal_error[k], values.spot.normal[k], exact.n[k], 2 * k_unit);
         EXPECT_LE(error, 1) << "normal: " << describe(pair);
         const double bound = values.normal_error < length ? values.normal_error + 0x1p-52 * length : HUGE_VAL;
-        EXPECT_LE(bound == HUGE_VAL ? 0 : error_in(bound, values.spot.normal[k], exact.n[k], 2 * k_unit), 1) << describe(pair);
+        EXPECT_LE(bound == HUGE_VAL ? 0 : error_in(bound, values.spot.normal[k], exact.n[k], 2 * k_unit), 1)
+            << describe(pair);
     }
     if (!decide(pair.path, pair.corners, Sides::both).hit || !values.good) return;
     // |x - y / s| <= e is |x s - y| <= e |s|, and a rounding of x, which is at most 1.
     const auto near = [&](const char* what, double x, const mpz_class& y, double bound) {
         const mpz_class error = abs(whole(x, k_unit) * exact.s - (y << k_unit));
-        const double parts = mpq_class(error, whole(bound + (u < 0x1p-60 ? 0x1p-53 * x + 0x1p-1074 : 0), k_unit) * abs(exact.s)).get_d();
+        const double parts =
+            mpq_class(error, whole(bound + (u < 0x1p-60 ? 0x1p-53 * x + 0x1p-1074 : 0), k_unit) * abs(exact.s)).get_d();
         tally.value = std::max(tally.value, parts);
         EXPECT_LE(parts, 1 + 0x1p-20) << what << ": " << describe(pair);
     };
@@ -102,14 +107,18 @@ void judge(const test::Pair& pair, double tolerance, Tally& tally) {
     for (std::size_t k = 0; k < 3; ++k) near("weight", values.barycentric[k], exact.w[k], values.weight_error);
     for (std::size_t k = 0; k < 3; ++k) {
         const mpz_class from = whole(pair.path.from[k], k_unit);
-        const mpz_class error = abs((whole(values.spot.high[k], k_unit) + whole(values.spot.low[k], k_unit) - from) * exact.s - exact.v * exact.d[k]);
+        const mpz_class error =
+            abs((whole(values.spot.high[k], k_unit) + whole(values.spot.low[k], k_unit) - from) * exact.s -
+                exact.v * exact.d[k]);
         const mpz_class bound = whole(values.spot.error[k], k_unit) * abs(exact.s);
         EXPECT_LE(error, bound) << "place: " << describe(pair);
         if (bound != 0) tally.place = std::max(tally.place, mpq_class(error, bound).get_d());
     }
     const mpz_class far = whole(values.spot.distance * (1 - 0x1p-51), 3 * k_unit);
     EXPECT_LE(far, abs(exact.v)) << "distance: " << describe(pair);
-    if (values.fraction_error <= tolerance * values.fraction && values.weight_error <= tolerance && values.normal_error <= tolerance * length) ++tally.values;
+    if (values.fraction_error <= tolerance * values.fraction && values.weight_error <= tolerance &&
+        values.normal_error <= tolerance * length)
+        ++tally.values;
 }
 
 // Pairs of all families, as they come (`power` 0) or scaled, beyond the ends of the range too, where one axis may be
@@ -117,7 +126,9 @@ void judge(const test::Pair& pair, double tolerance, Tally& tally) {
 test::Pair pair_of(Random& random) {
     const auto family = static_cast<Family>(random.below(k_family_names.size()));
     test::Pair pair = make_pair_of<double>(family, 1, random.chance(0.5) ? 0 : std::exp(random.between(0, 14)), random);
-    const int power = random.chance(0.7) ? 0 : random.chance(0.5) ? random.between_ints(-201, -100) : random.between_ints(100, 201);
+    const int power = random.chance(0.7)   ? 0
+                      : random.chance(0.5) ? random.between_ints(-201, -100)
+                                           : random.between_ints(100, 201);
     const std::size_t axis = random.below(3);
     const int squeezed = power - (random.chance(0.2) ? random.between_ints(0, 220) : 0);
     const bool flat = random.chance(0.1);
@@ -133,8 +144,9 @@ Tally tally_of(int count, double tolerance) {
     Random random(10);
     Tally tally;
     for (int i = 0; i < count; ++i) judge<Number>(pair_of(random), tolerance, tally);
-    std::cout << tally.pairs << " pairs, " << tally.tame << " in range, " << tally.zeros << " bars of 0, values of " << tally.values
-              << " hits good enough; in parts of bounds: volumes " << tally.volume << ", values " << tally.value << ", places " << tally.place << '\n';
+    std::cout << tally.pairs << " pairs, " << tally.tame << " in range, " << tally.zeros << " bars of 0, values of "
+              << tally.values << " hits good enough; in parts of bounds: volumes " << tally.volume << ", values "
+              << tally.value << ", places " << tally.place << '\n';
     EXPECT_GT(tally.tame, count / 2);
     EXPECT_LT(tally.tame, count);
     EXPECT_GT(tally.zeros, count / 20);

@@ -43,8 +43,9 @@ TEST(KernelWeaknesses, McGuiresToleranceHitsBesideTheTriangle) {
     const std::array<D, 3> t = {D{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const kernels::McGuire tolerant{.tolerance = 1e-3};
     // Each edge in turn: v, u and w = 1 - u - v are what is tolerated.
-    for (const auto& at : {+[](double beside) { return D(0.5, -beside, 0); }, +[](double beside) { return D(-beside, 0.5, 0); },
-                           +[](double beside) { return D(0.5, 0.5 + beside, 0); }}) {
+    for (const auto& at :
+         {+[](double beside) { return D(0.5, -beside, 0); }, +[](double beside) { return D(-beside, 0.5, 0); },
+          +[](double beside) { return D(0.5, 0.5 + beside, 0); }}) {
         const D up(0, 0, 1);
         EXPECT_TRUE(tested(tolerant, t, D(at(0.9e-3) + up), D(at(0.9e-3) - up)));
         EXPECT_FALSE(tested(tolerant, t, D(at(1.1e-3) + up), D(at(1.1e-3) - up)));
@@ -153,12 +154,15 @@ TEST(KernelWeaknesses, ErrorsOfAFanGrowAlongItsMembers) {
                 const auto one = tested(kernels::baldwin_weber_12, t, from, to);
                 const auto answer = kernels::triangle_fan.test(stored, from, to);
                 ASSERT_TRUE(truth && one && answer && answer->triangle == k);
-                const auto error = [&](const auto& it) { return double{std::max(std::abs(it->u - truth->u), std::abs(it->v - truth->v))}; };
+                const auto error = [&](const auto& it) {
+                    return double{std::max(std::abs(it->u - truth->u), std::abs(it->v - truth->v))};
+                };
                 worst[n] = std::max(worst[n], error(answer));
                 alone = std::max(alone, error(one));
             }
         }
-        std::printf("%3d members: the largest error of u and v in float %.2g, of single triangles %.2g\n", n, worst[n], alone);
+        std::printf("%3d members: the largest error of u and v in float %.2g, of single triangles %.2g\n", n, worst[n],
+                    alone);
         if (n <= 16) EXPECT_LT(worst[n], 12 * alone);
         else EXPECT_GT(worst[n], 50 * alone);
     }
@@ -209,7 +213,8 @@ TEST(KernelWeaknesses, OnlyWatertightAndExactHaveNoHolesAtCorners) {
         const double height = random.between(-0.2, 0.2);
         std::vector<Vec3<float>> ring;
         for (std::size_t k = 0; k < n; ++k) {
-            const double angle = (static_cast<double>(k) + random.between(0, 0.3)) * 6.283185307179586 / static_cast<double>(n);
+            const double angle =
+                (static_cast<double>(k) + random.between(0, 0.3)) * 6.283185307179586 / static_cast<double>(n);
             const double radius = random.between(0.5, 1);
             const double rise = height + random.between(-0.05, 0.05);
             ring.push_back((corner + D(radius * std::cos(angle), radius * std::sin(angle), rise)).cast<float>());
@@ -221,7 +226,8 @@ TEST(KernelWeaknesses, OnlyWatertightAndExactHaveNoHolesAtCorners) {
         const Vec3<float> to = (x - way).cast<float>();
         const auto leak = [&](const char* name, const auto& kernel) {
             bool hit = false;
-            for (std::size_t k = 0; k < n; ++k) hit = hit || tested(kernel, {apex, ring[k], ring[(k + 1) % n]}, from, to).has_value();
+            for (std::size_t k = 0; k < n; ++k)
+                hit = hit || tested(kernel, {apex, ring[k], ring[(k + 1) % n]}, from, to).has_value();
             through[name] += hit ? 0 : 1;
         };
         for_each_kernel(leak);

@@ -49,7 +49,8 @@ void expect_same_everywhere(const std::string& ending, const std::string& bytes)
     const TempFile file(ending, bytes);
     const auto standard = bits_of(read_in<Scalar>(file, FE_TONEAREST, false));
     test::for_each_setting([&](int rounding, bool flush) {
-        EXPECT_EQ(bits_of(read_in<Scalar>(file, rounding, flush)), standard) << "rounding " << rounding << " flush " << flush;
+        EXPECT_EQ(bits_of(read_in<Scalar>(file, rounding, flush)), standard)
+            << "rounding " << rounding << " flush " << flush;
     });
 }
 

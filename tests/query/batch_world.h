@@ -35,7 +35,8 @@ std::vector<Segment<Scalar>> batch_segments(const MeshView<Scalar>& mesh, std::s
         Segment<Scalar> s = mixed_segment(mesh, extent, random);
         const double kind = random.unit();
         if (kind < 0.03) {
-            const Scalar bad = std::array{infinity, -infinity, std::numeric_limits<Scalar>::quiet_NaN()}[random.below(3)];
+            const Scalar bad =
+                std::array{infinity, -infinity, std::numeric_limits<Scalar>::quiet_NaN()}[random.below(3)];
             (random.chance(0.5) ? s.from : s.to)[random.between_ints(0, 2)] = bad;
         } else if (kind < 0.05) {
             s.to = s.from;

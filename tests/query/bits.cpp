@@ -47,7 +47,8 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
         const double length = scale * (random.chance(0.5) ? 0.01 : 3);
         const Vec3<double> d = length * random.in_cube();
         const double beyond = random.unit();
-        const Segment<Scalar> segment{(target - d).template cast<Scalar>(), (target + beyond * d).template cast<Scalar>()};
+        const Segment<Scalar> segment{(target - d).template cast<Scalar>(),
+                                      (target + beyond * d).template cast<Scalar>()};
         segments.push_back(segment);
         const std::size_t total = mesh.all_hits(segment, hits, {.sides = Sides::both});
         hash.add(total);

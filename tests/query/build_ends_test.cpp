@@ -33,7 +33,8 @@ TEST(BuildEnds, for_a_triangle_as_wide_as_the_range_of_doubles) {
             soup.positions.insert(soup.positions.end(), {V(-reach, -reach, -5), V(reach, -reach, -5), V(0, reach, -5)});
             soup.triangles.push_back({first, first + 1, first + 2});
             for (const Broadphase broadphase : {Broadphase::tree, Broadphase::grid}) {
-                const CollisionMesh<double> mesh(soup.view(), {.broadphase = broadphase, .max_grid_bytes = max_grid_bytes});
+                const CollisionMesh<double> mesh(soup.view(),
+                                                 {.broadphase = broadphase, .max_grid_bytes = max_grid_bytes});
                 EXPECT_TRUE(std::isfinite(mesh.statistics().cell_size));
                 const auto near = mesh.first_hit({V(500.25, 0.25, 1), V(500.25, 0.25, -10)});
                 ASSERT_TRUE(near);

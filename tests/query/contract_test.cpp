@@ -131,7 +131,8 @@ TEST(Contract, features_and_values) {
 }
 
 TEST(Contract, degenerate_triangles_never_hit) {
-    for (const auto& corners : {std::array<V, 3>{V(0, 0, 0), V(0, 0, 0), V(1, 0, 0)}, {V(0, 0, 0), V(1, 1, 1), V(3, 3, 3)},
+    for (const auto& corners : {std::array<V, 3>{V(0, 0, 0), V(0, 0, 0), V(1, 0, 0)},
+                                {V(0, 0, 0), V(1, 1, 1), V(3, 3, 3)},
                                 {V(2, 2, 2), V(2, 2, 2), V(2, 2, 2)}}) {
         const TriangleSoup<double> soup{{corners[0], corners[1], corners[2]}, {{0, 1, 2}}, {}};
         const CollisionMesh<double> mesh(soup.view());
@@ -241,7 +242,8 @@ TEST(Contract, all_hits_counts_what_it_leaves_out) {
 TEST(Contract, of_two_hits_at_one_place_neither_hides_the_other_from_its_point) {
     // A ridge of two slopes, hit on the ridge itself from many sides: both faces are hit at the same fraction, so the
     // way to either point must be clear of both.
-    const TriangleSoup<double> soup{{V(0, -1, 0), V(0, 1, 0), V(1, 0, -0.7), V(-1, 0, -0.3)}, {{0, 2, 1}, {0, 1, 3}}, {}};
+    const TriangleSoup<double> soup{
+        {V(0, -1, 0), V(0, 1, 0), V(1, 0, -0.7), V(-1, 0, -0.3)}, {{0, 2, 1}, {0, 1, 3}}, {}};
     const CollisionMesh<double> mesh(soup.view());
     Random random(4);
     std::array<Hit<double>, 4> hits;
@@ -255,7 +257,8 @@ TEST(Contract, of_two_hits_at_one_place_neither_hides_the_other_from_its_point) 
         if (mesh.all_hits(segment, hits) != 2) continue;
         ++both;
         ASSERT_EQ(hits[0].exact_fraction, 0.5);
-        for (std::size_t k = 0; k < 2; ++k) ASSERT_FALSE(mesh.any_hit({segment.from, hits[k].point})) << to_text(segment);
+        for (std::size_t k = 0; k < 2; ++k)
+            ASSERT_FALSE(mesh.any_hit({segment.from, hits[k].point})) << to_text(segment);
     }
     EXPECT_EQ(both, 2000);
 }
@@ -358,7 +361,9 @@ void expect_verified(const TriangleSoup<Scalar>& soup, std::uint64_t seed) {
         ASSERT_TRUE(hit->fraction > 0 || hit->point == segment.from) << to_text(segment);
         if (hit->at_start) continue;
         const Vec3<double> normal = hit->normal.template cast<double>() * (hit->side == Sides::front ? 1 : -1);
-        const auto from_true = [&](const Vec3<Scalar>& p) -> Vec3<double> { return (p - hit->position).template cast<double>(); };
+        const auto from_true = [&](const Vec3<Scalar>& p) -> Vec3<double> {
+            return (p - hit->position).template cast<double>();
+        };
         // The position was rounded (sqrt(3) / 2 of a unit), and so was the normal, by 4 ulp of 1.
         const double start = normal.dot(from_true(segment.from));
         const double slack = unit + 8 * std::numeric_limits<Scalar>::epsilon() * from_true(segment.from).norm();
@@ -368,7 +373,8 @@ void expect_verified(const TriangleSoup<Scalar>& soup, std::uint64_t seed) {
         if (hit->feature != Feature::face) continue;
         // Where the segment from the point to the same end meets the plane: no further from the true point than this.
         const double below = std::max(0.0, -normal.dot(from_true(segment.to)) - slack);
-        const double aside = from_true(hit->point).norm() + unit + (segment.to - hit->point).template cast<double>().norm() * (off + unit) / (off + below);
+        const double aside = from_true(hit->point).norm() + unit +
+                             (segment.to - hit->point).template cast<double>().norm() * (off + unit) / (off + below);
         double to_edge = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3<double> a = corner(soup.view(), hit->triangle, k);
@@ -381,7 +387,8 @@ void expect_verified(const TriangleSoup<Scalar>& soup, std::uint64_t seed) {
         ASSERT_TRUE(again) << to_text(segment);
         stopped_again += again ? 1 : 0;
     }
-    std::cout << hits << " hits, " << faces << " of them away from edges, " << far << " points further than 13 units from the true ones\n";
+    std::cout << hits << " hits, " << faces << " of them away from edges, " << far
+              << " points further than 13 units from the true ones\n";
     EXPECT_GT(hits, 2000);
     EXPECT_GT(stopped_again, hits / 4);
     EXPECT_LE(far, hits / 500);  // in corners with no clear place nearer: place_test.cpp looks for one

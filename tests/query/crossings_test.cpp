@@ -135,7 +135,8 @@ TEST_P(RealCrossings, agree_with_cgal) {
         if (side == CGAL::ON_BOUNDARY) continue;
         const bool to_inside = side == CGAL::ON_BOUNDED_SIDE;
         ASSERT_EQ(mesh.contains(to), to_inside) << to.transpose();
-        ASSERT_EQ(mesh.crossings({from, to}), int(to_inside) - int(from_inside)) << from.transpose() << " -> " << to.transpose();
+        ASSERT_EQ(mesh.crossings({from, to}), int(to_inside) - int(from_inside))
+            << from.transpose() << " -> " << to.transpose();
         ++compared;
         inside += to_inside ? 1 : 0;
         from = to;

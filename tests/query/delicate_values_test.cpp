@@ -51,7 +51,8 @@ struct Worst {
         const RationalOracle exact = one.exact();
         ++hits;
         fraction = std::max(fraction, ulps(hit->exact_fraction, exact.fraction(), CGAL::to_double(exact.fraction())));
-        for (std::size_t k = 0; k < 3; ++k) weight = std::max(weight, ulps(hit->barycentric[static_cast<int>(k)], exact.weight(k), 1));
+        for (std::size_t k = 0; k < 3; ++k)
+            weight = std::max(weight, ulps(hit->barycentric[static_cast<int>(k)], exact.weight(k), 1));
     }
     void expect(const char* what) const {
         std::cout << what << ": " << hits << " hits; off by at most: fraction " << fraction << ", weights " << weight
@@ -95,11 +96,13 @@ TEST(DelicateValues, of_a_long_grazing_segment_and_a_small_face) {
         // segment goes almost along (p, q, 0), is some thousand times as long as the face, and passes through the plane
         // by a hundred-thousandth of its length: what rounding does to its height, it does a hundred thousand times to
         // the place.
-        const std::array<int, 4> few = {random.between_ints(1, 31), random.between_ints(-31, 31), random.between_ints(1, 31),
-                                        random.between_ints(-31, 31)};
+        const std::array<int, 4> few = {random.between_ints(1, 31), random.between_ints(-31, 31),
+                                        random.between_ints(1, 31), random.between_ints(-31, 31)};
         const auto in_plane = [&](double r, double s) { return V(few[0] * r, few[1] * r + few[2] * s, few[3] * s); };
         const int size = random.between_ints(-14, -6);
-        const auto some = [&](int low, int high, int exponent) { return std::ldexp(random.between_ints(low, high), exponent); };
+        const auto some = [&](int low, int high, int exponent) {
+            return std::ldexp(random.between_ints(low, high), exponent);
+        };
         one.corners = {in_plane(some(-4095, 0, size - 12), some(1, 4095, size - 12)).cast<float>(),
                        in_plane(some(0, 4095, size - 12), some(1, 4095, size - 12)).cast<float>(),
                        in_plane(some(-2047, 2047, size - 12), some(-4095, -1, size - 12)).cast<float>()};

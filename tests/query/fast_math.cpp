@@ -29,7 +29,8 @@ pierce::Vec3<float> denormal(std::uint32_t x, std::uint32_t y, std::uint32_t z) 
 
 int main() {
 #if defined(__SSE2__)
-    expect((_mm_getcsr() & 0x8040) == 0x8040, "-ffast-math flushes denormals in this program (else this test shows nothing)");
+    expect((_mm_getcsr() & 0x8040) == 0x8040,
+           "-ffast-math flushes denormals in this program (else this test shows nothing)");
 #endif
     const std::vector<pierce::Vec3<float>> corners = {denormal(0, 0, 4), denormal(400, 0, 4), denormal(0, 400, 4)};
     const std::vector<pierce::IndexTriple> triangles = {{0, 1, 2}};

@@ -81,7 +81,8 @@ TYPED_TEST(Leaks, none_from_any_vertex_edge_or_face_in_any_octant) {
                                     const V to = from + V(dx, dy, dz);
                                     if (!poly.strictly_inside(to)) continue;
                                     ++into;
-                                    ASSERT_TRUE(mesh.any_hit({(from + shift).cast<TypeParam>(), (to + shift).cast<TypeParam>()}))
+                                    ASSERT_TRUE(mesh.any_hit(
+                                        {(from + shift).cast<TypeParam>(), (to + shift).cast<TypeParam>()}))
                                         << from.transpose() << " -> " << to.transpose();
                                 }
                     }
@@ -110,8 +111,9 @@ TYPED_TEST(Leaks, none_either_way_where_both_sides_count) {
                                     const bool inside = poly.strictly_inside(from);
                                     if (poly.strictly_inside(to) == inside) continue;
                                     ++(inside ? out : in);
-                                    ASSERT_TRUE(mesh.any_hit({(from + shift).cast<TypeParam>(), (to + shift).cast<TypeParam>()},
-                                                             {.sides = Sides::both}))
+                                    ASSERT_TRUE(
+                                        mesh.any_hit({(from + shift).cast<TypeParam>(), (to + shift).cast<TypeParam>()},
+                                                     {.sides = Sides::both}))
                                         << from.transpose() << " -> " << to.transpose();
                                 }
         }
@@ -164,7 +166,8 @@ std::int64_t leaks_in_lattice_walks(Rule rule) {
             const bool stopped = std::any_of(triangles.begin(), triangles.end(), [&](const detail::Corners& c) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     const auto at = static_cast<int>(k);
-                    if (std::min({c[0][k], c[1][k], c[2][k]}) > high[at] || std::max({c[0][k], c[1][k], c[2][k]}) < low[at])
+                    if (std::min({c[0][k], c[1][k], c[2][k]}) > high[at] ||
+                        std::max({c[0][k], c[1][k], c[2][k]}) < low[at])
                         return false;
                 }
                 return hit(path, c, rule);

@@ -18,8 +18,8 @@ TEST(MeshReport, finds_nothing_in_a_closed_surface) {
     for (const MeshReport& r : {report(bumpy_sphere(8)), report(moved<float>(bowl(8), 1, V(0, 0, 0)))}) {
         EXPECT_TRUE(r.closed());
         EXPECT_EQ(r.components, 1U);
-        EXPECT_EQ(r.border_edges + r.non_manifold_edges + r.misoriented_edges + r.non_manifold_vertices + r.t_junctions +
-                      r.zero_area + r.duplicates,
+        EXPECT_EQ(r.border_edges + r.non_manifold_edges + r.misoriented_edges + r.non_manifold_vertices +
+                      r.t_junctions + r.zero_area + r.duplicates,
                   0U);
         EXPECT_EQ(r.to_string(), "closed: nothing gets through; 1 component\n");
     }
@@ -59,7 +59,8 @@ TEST(MeshReport, names_a_turned_face_a_third_wing_and_a_double) {
 
     soup = bumpy_sphere(2);
     soup.positions.push_back(V(5, 5, 5));
-    soup.triangles.push_back({soup.triangles[0][0], soup.triangles[0][1], static_cast<std::uint32_t>(soup.positions.size() - 1)});
+    soup.triangles.push_back(
+        {soup.triangles[0][0], soup.triangles[0][1], static_cast<std::uint32_t>(soup.positions.size() - 1)});
     r = report(soup);
     EXPECT_EQ(r.non_manifold_edges, 1U);
     EXPECT_EQ(r.misoriented_edges, 1U);

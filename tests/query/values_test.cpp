@@ -39,10 +39,12 @@ void check_values() {
         const double scale = std::array{1e-3, 1.0, 1e3}[random.below(3)];
         const Pair pair = make_pair_of<Scalar>(family, scale, offset, random);
         const auto vec = [](const detail::Point& p) { return Vec3<double>(p[0], p[1], p[2]).cast<Scalar>().eval(); };
-        const TriangleSoup<Scalar> soup{{vec(pair.corners[0]), vec(pair.corners[1]), vec(pair.corners[2])}, {{0, 1, 2}}, {}};
+        const TriangleSoup<Scalar> soup{
+            {vec(pair.corners[0]), vec(pair.corners[1]), vec(pair.corners[2])}, {{0, 1, 2}}, {}};
         const CollisionMesh<Scalar> mesh(soup.view());
         QueryCounters counters;
-        const auto hit = mesh.first_hit({vec(pair.path.from), vec(pair.path.to)}, {.sides = Sides::both, .counters = &counters});
+        const auto hit =
+            mesh.first_hit({vec(pair.path.from), vec(pair.path.to)}, {.sides = Sides::both, .counters = &counters});
         const RationalOracle exact(pair.path, pair.corners);
         ASSERT_EQ(hit.has_value(), exact.hit(Sides::both)) << describe(pair);
         if (!hit) continue;
@@ -53,8 +55,10 @@ void check_values() {
         detail::measure_path<Scalar>(pair.corners, pair.path, measured);
         detail::evaluate(measured, measured.meeting, values);
         if (counters.exact_values > 0) ++exact_values;
-        else if (values.good && values.weight_error <= tolerance && values.fraction_error <= tolerance * values.fraction &&
-                 values.normal_error <= tolerance * values.length) ++coarse;
+        else if (values.good && values.weight_error <= tolerance &&
+                 values.fraction_error <= tolerance * values.fraction &&
+                 values.normal_error <= tolerance * values.length)
+            ++coarse;
         else ++fine;
         exact_sides += counters.exact_sides > 0 ? 1 : 0;
         fraction = std::max(fraction, steps(hit->exact_fraction, exact.fraction(), CGAL::to_double(exact.fraction())));
@@ -78,9 +82,9 @@ void check_values() {
         direction.normalize();
         for (int k = 0; k < 3; ++k) normal = std::max(normal, steps(hit->normal[k], Q(direction[k]), 1));
     }
-    std::cout << hits << " hits; off by at most: fraction " << fraction << ", weights " << weight << ", normal " << normal
-              << " units in the last place; " << coarse << " in double, " << fine << " in double-double, " << exact_values
-              << " exact; sides of " << exact_sides << " exact\n";
+    std::cout << hits << " hits; off by at most: fraction " << fraction << ", weights " << weight << ", normal "
+              << normal << " units in the last place; " << coarse << " in double, " << fine << " in double-double, "
+              << exact_values << " exact; sides of " << exact_sides << " exact\n";
     EXPECT_GT(hits, 3000);
     EXPECT_GT(fine, 500);
     // For float few are left: those of edges and corners are known from volumes, and bounds are rarely too wide.

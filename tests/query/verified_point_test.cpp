@@ -43,8 +43,10 @@ struct Blades {
             const Vec3<double> side = way.cross(random.direction()).normalized();
             const double width = std::exp(random.between(-8, 0));
             if (i % 3 == 0) {
-                const Vec3<double> start = segment.from.template cast<double>() + (random.chance(0.5) ? noise : 0) * random.in_cube();
-                add(start + width * side, start - width * side, start + random.between(-0.5, 0.5) * way + random.in_cube());
+                const Vec3<double> start =
+                    segment.from.template cast<double>() + (random.chance(0.5) ? noise : 0) * random.in_cube();
+                add(start + width * side, start - width * side,
+                    start + random.between(-0.5, 0.5) * way + random.in_cube());
             } else {
                 add(a, b, a + width * side + random.between(-0.3, 0.3) * way);
             }
@@ -65,7 +67,8 @@ void compare() {
     constexpr int k_rounds = 20000;
     for (int i = 0; i < k_rounds; ++i) {
         const Blades<Scalar> blades(random, std::array{0.0, 10.0, 1e3, 1e5}[random.below(4)]);
-        const CollisionMesh<Scalar> mesh(blades.soup.view(), {.cell_size = random.chance(0.5) ? 0 : std::exp(random.between(-6, 1))});
+        const CollisionMesh<Scalar> mesh(blades.soup.view(),
+                                         {.cell_size = random.chance(0.5) ? 0 : std::exp(random.between(-6, 1))});
         const NaiveMesh<Scalar> naive(blades.soup.view());
         QueryCounters counters;
         BatchOptions options;
@@ -94,7 +97,9 @@ void pass_by_a_level(double far, double unit) {
     int hits = 0;
     for (int i = 0; i < 1000; ++i) {
         TriangleSoup<Scalar> soup;
-        const auto point = [&](const Vec3<double>& p) -> Vec3<Scalar> { return ((p * unit).array() + far).matrix().template cast<Scalar>(); };
+        const auto point = [&](const Vec3<double>& p) -> Vec3<Scalar> {
+            return ((p * unit).array() + far).matrix().template cast<Scalar>();
+        };
         const auto add = [&](const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c) {
             const auto first = static_cast<std::uint32_t>(soup.positions.size());
             for (const Vec3<double>& p : {a, b, c}) soup.positions.push_back(point(p));
@@ -111,8 +116,9 @@ void pass_by_a_level(double far, double unit) {
         for (int q = 0; q < 8; ++q) {
             const double a = random.between_ints(20, 90);
             const double b = random.between_ints(50, 90);
-            const Segment<Scalar> segment = {point({-a, a - random.between_ints(0, 3), random.between_ints(-2, 2) * 1.0}),
-                                             point({b, -b - random.between_ints(0, 3), random.between_ints(-2, 2) * 1.0})};
+            const Segment<Scalar> segment = {
+                point({-a, a - random.between_ints(0, 3), random.between_ints(-2, 2) * 1.0}),
+                point({b, -b - random.between_ints(0, 3), random.between_ints(-2, 2) * 1.0})};
             BatchOptions options;
             options.sides = Sides::both;
             const auto expected = naive.first_hit(segment, options);

@@ -26,7 +26,9 @@ class MovedOracle {
     }
 
     /// The side that the moved point is on: +1 in front, -1 behind. For a triangle with an area.
-    static int side(const Triangle& t, const LatticePoint& p) { return sign(volume(at(t[0]), at(t[1]), at(t[2]), moved(p))); }
+    static int side(const Triangle& t, const LatticePoint& p) {
+        return sign(volume(at(t[0]), at(t[1]), at(t[2]), moved(p)));
+    }
 
     /// +1 if the moved segment passes from front to back, -1 if from back to front, 0 if not at all.
     static int crossing(const Triangle& t, const LatticePoint& p, const LatticePoint& q) {

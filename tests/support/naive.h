@@ -88,15 +88,23 @@ class NaiveMesh {
             if (apart(path, corners_[i])) continue;
             const detail::Decision decision = detail::decide(path, corners_[i], options.sides);
             if (!decision.hit || !detail::fraction_at_most(path, corners_[i], options.max_fraction)) continue;
-            if (!options.face_mask.empty() && (faces_[i] >= options.face_mask.size() || options.face_mask[faces_[i]] == 0))
+            if (!options.face_mask.empty() &&
+                (faces_[i] >= options.face_mask.size() || options.face_mask[faces_[i]] == 0))
                 continue;
             if (options.accept) {
                 QueryCounters unused;
                 detail::Measured measured;
                 detail::measure_path<Scalar>(corners_[i], path, measured);
-                const detail::Measures m = detail::CertifiedFace<double>(path, measured, decision, detail::k_refine, unused).measures();
-                if (!options.accept({faces_[i], i, decision.side, decision.feature, decision.feature_index,
-                                     decision.at_start, m.fraction, {m.barycentric[0], m.barycentric[1], m.barycentric[2]}}))
+                const detail::Measures m =
+                    detail::CertifiedFace<double>(path, measured, decision, detail::k_refine, unused).measures();
+                if (!options.accept({faces_[i],
+                                     i,
+                                     decision.side,
+                                     decision.feature,
+                                     decision.feature_index,
+                                     decision.at_start,
+                                     m.fraction,
+                                     {m.barycentric[0], m.barycentric[1], m.barycentric[2]}}))
                     continue;
             }
             found.push_back({i, decision});
@@ -152,7 +160,8 @@ class NaiveMesh {
         QueryOptions whole = options;
         whole.max_fraction = 1;
         const OtherWays ways{*this, path, found, i, whole};
-        detail::place<Scalar>(path, corners_[triangle], found[i].decision, grain_, measures.fraction, face, unused, ways, hit);
+        detail::place<Scalar>(path, corners_[triangle], found[i].decision, grain_, measures.fraction, face, unused,
+                              ways, hit);
         return hit;
     }
 

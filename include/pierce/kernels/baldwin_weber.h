@@ -48,7 +48,9 @@ template <class Number>
     requires(!std::is_arithmetic_v<Number>)
 [[nodiscard]] Triple<Number> from_column(const Number& column, const Triple<Number>& p) {
     const auto is = [&](int k) { return (column == Number(k)) | (column == Number(k + 3)); };
-    const auto pick = [&](std::size_t x, std::size_t y, std::size_t z) { return select(is(0), p[x], select(is(1), p[y], p[z])); };
+    const auto pick = [&](std::size_t x, std::size_t y, std::size_t z) {
+        return select(is(0), p[x], select(is(1), p[y], p[z]));
+    };
     return {pick(0, 1, 2), pick(1, 2, 0), pick(2, 0, 1)};
 }
 template <class Number>
@@ -96,7 +98,8 @@ struct BaldwinWeber12 {
     }
 
     template <class Number>
-    [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from,
+                                          const Triple<Number>& to) const {
         auto [hit, f, g] = passage(t.height(from), t.height(to), sides);
         if (none(hit)) return {hit};
         const Number d = f - g;
@@ -129,7 +132,9 @@ struct BaldwinWeber9 {
         Number at_j;
         Number offset;
 
-        [[nodiscard]] constexpr Number operator()(const Triple<Number>& kij) const { return at_i * kij[1] + at_j * kij[2] + offset; }
+        [[nodiscard]] constexpr Number operator()(const Triple<Number>& kij) const {
+            return at_i * kij[1] + at_j * kij[2] + offset;
+        }
     };
     template <class Number>
     struct Stored {
@@ -140,7 +145,8 @@ struct BaldwinWeber9 {
     };
 
     template <class Scalar>
-    [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) const {
+    [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
+                                         const PointOf<Scalar>& c) const {
         const auto full = BaldwinWeber12{}.prepare<Scalar>(a, b, c);
         std::uint8_t k = 0;
         while (k < 2 && std::abs(full.height.normal[k]) != 1) ++k;
@@ -151,14 +157,17 @@ struct BaldwinWeber9 {
         const auto row = [i, j](const Plane<Scalar>& p, Scalar s) {
             return Row<Scalar>{s * p.normal[i], s * p.normal[j], s * p.offset};
         };
-        return {row(full.u, 1), row(full.v, 1), row(full.height, sign), static_cast<std::uint8_t>(sign > 0 ? k : k + 3)};
+        return {row(full.u, 1), row(full.v, 1), row(full.height, sign),
+                static_cast<std::uint8_t>(sign > 0 ? k : k + 3)};
     }
 
     template <class Number>
-    [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from,
+                                          const Triple<Number>& to) const {
         const Triple<Number> start = from_column(t.column, from);
         const Triple<Number> end = from_column(t.column, to);
-        auto [hit, f, g] = passage(with_sign_of(t.column, start[0] + t.height(start)), with_sign_of(t.column, end[0] + t.height(end)), sides);
+        auto [hit, f, g] = passage(with_sign_of(t.column, start[0] + t.height(start)),
+                                   with_sign_of(t.column, end[0] + t.height(end)), sides);
         if (none(hit)) return {hit};
         const Number d = f - g;
         const Number u = f * t.u(end) - g * t.u(start);
@@ -186,7 +195,8 @@ struct BaldwinWeber9 {
     }
 };
 
-static_assert(sizeof(BaldwinWeber9::Stored<float>) == 10 * sizeof(float));  // the column is one byte, and three to align it
+// The column is one byte, and three to align it.
+static_assert(sizeof(BaldwinWeber9::Stored<float>) == 10 * sizeof(float));
 
 inline constexpr BaldwinWeber12 baldwin_weber_12{};
 inline constexpr BaldwinWeber9 baldwin_weber_9{};

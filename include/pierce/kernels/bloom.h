@@ -39,7 +39,8 @@ struct Bloom {
         const Scalar size = std::abs(unscaled[largest(unscaled)]);
         if (!(size > 0)) return {};
         const Triple<Scalar> n = {unscaled[0] / size, unscaled[1] / size, unscaled[2] / size};
-        const auto barycentric = [&n](const Triple<Scalar>& p, const Triple<Scalar>& q, const Triple<Scalar>& opposite) {
+        const auto barycentric = [&n](const Triple<Scalar>& p, const Triple<Scalar>& q,
+                                      const Triple<Scalar>& opposite) {
             const Triple<Scalar> inwards = cross(n, q - p);
             return plane((1 / dot(inwards, opposite - p)) * inwards, p);
         };
@@ -47,7 +48,8 @@ struct Bloom {
     }
 
     template <class Number>
-    [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from,
+                                          const Triple<Number>& to) const {
         const Number f = t.height(from);
         const Number g = t.height(to);
         Mask<Number> hit = (f >= Number{}) & (g < Number{});

@@ -24,12 +24,14 @@ struct Cramer {
     using Stored = Vertices<Number>;
 
     template <class Scalar>
-    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) const {
+    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
+                                           const PointOf<Scalar>& c) const {
         return {triple<Scalar>(a), triple<Scalar>(b), triple<Scalar>(c)};
     }
 
     template <class Number>
-    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& triangle, const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& triangle, const Triple<Number>& from,
+                                          const Triple<Number>& to) const {
         const Triple<Number> a = from - to;
         const Triple<Number> b = triangle.b - triangle.a;
         const Triple<Number> c = triangle.c - triangle.a;
@@ -61,7 +63,8 @@ struct Cramer {
     // By the first row.
     template <class Number>
     static Number of_columns(const Triple<Number>& p, const Triple<Number>& q, const Triple<Number>& r) {
-        return p[0] * (q[1] * r[2] - q[2] * r[1]) - q[0] * (p[1] * r[2] - p[2] * r[1]) + r[0] * (p[1] * q[2] - p[2] * q[1]);
+        return p[0] * (q[1] * r[2] - q[2] * r[1]) - q[0] * (p[1] * r[2] - p[2] * r[1]) +
+               r[0] * (p[1] * q[2] - p[2] * q[1]);
     }
 };
 

@@ -90,7 +90,8 @@ template <class Scalar>
     // a + b and d + e: (AB x AD + AC x AB) = AB x (AD - AC)
     const Triple<Scalar> other = last ? ad - ac : ad;
     const auto part = [&](const Triple<Scalar>& x) { return dot(x, basis.n) / basis.square; };
-    return {part(cross(ab, other)), part(cross(ac, ab)), part(ab), part(cross(normal, other)), part(cross(ac, normal)), part(normal)};
+    return {part(cross(ab, other)),     part(cross(ac, ab)),     part(ab),
+            part(cross(normal, other)), part(cross(ac, normal)), part(normal)};
 }
 
 }  // namespace pierce::kernels

@@ -21,18 +21,20 @@ namespace pierce::kernels {
 /// right-angled triangles with legs below 0.32 mm, if the unit is a metre, and larger ones at grazing angles.
 struct McGuire {
     double epsilon = 1e-7;  ///< in squared units of length
-    double tolerance = 0;   ///< weights down to minus this count as inside: makes each triangle larger by this part of its height
+    double tolerance = 0;   ///< weights down to minus this count as inside: a triangle grows by this part of its height
 
     template <class Number>
     using Stored = Vertices<Number>;
 
     template <class Scalar>
-    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) const {
+    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
+                                           const PointOf<Scalar>& c) const {
         return {triple<Scalar>(a), triple<Scalar>(b), triple<Scalar>(c)};
     }
 
     template <class Number>
-    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& t, const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& t, const Triple<Number>& from,
+                                          const Triple<Number>& to) const {
         using std::sqrt;
         const Number one(1);
         const auto least = static_cast<Number>(-tolerance);

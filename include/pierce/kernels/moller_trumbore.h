@@ -25,12 +25,14 @@ struct MollerTrumbore {
     using Stored = Vertices<Number>;
 
     template <class Scalar>
-    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) const {
+    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
+                                           const PointOf<Scalar>& c) const {
         return {triple<Scalar>(a), triple<Scalar>(b), triple<Scalar>(c)};
     }
 
     template <class Number>
-    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& t, const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& t, const Triple<Number>& from,
+                                          const Triple<Number>& to) const {
         const Triple<Number> d = to - from;
         const Triple<Number> e1 = t.b - t.a;
         const Triple<Number> e2 = t.c - t.a;

@@ -94,8 +94,8 @@ struct Tested {
 /// Late division (Bloom 2002, addendum): everything has been decided on multiples by d > 0, and only a hit pays for
 /// quotients. With 0 <= part <= d each of them is in [0, 1] after rounding too, which a product by 1/d would not be.
 template <class Number>
-[[nodiscard]] constexpr Tested<Number> divided(const Mask<Number>& hit, const Number& fraction, const Number& u, const Number& v,
-                                               const Number& d) {
+[[nodiscard]] constexpr Tested<Number> divided(const Mask<Number>& hit, const Number& fraction, const Number& u,
+                                               const Number& v, const Number& d) {
     return {hit, fraction / d, u / d, v / d};
 }
 

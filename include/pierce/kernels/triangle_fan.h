@@ -29,7 +29,8 @@ namespace pierce::kernels {
 
 template <class Scalar>
 struct FanAnswer : Answer<Scalar> {
-    std::uint32_t triangle;  ///< which of the fan: k has the corners apex, ring[k], ring[k + 1]; u and v are the weights of the last two
+    /// Which of the fan: k has the corners apex, ring[k], ring[k + 1]; u and v are the weights of the last two.
+    std::uint32_t triangle;
 };
 
 /// Of either side, by `sides`. The answer is the first hit along the segment, of equal fractions as computed that of
@@ -57,7 +58,8 @@ struct TriangleFan {
     /// computed as zero, infinite or NaN.
     template <class Scalar>
     [[nodiscard]] static bool has_basis(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) {
-        return fan_basis<Scalar>(triple<Scalar>(b) - triple<Scalar>(a), triple<Scalar>(c) - triple<Scalar>(a)).has_value();
+        return fan_basis<Scalar>(triple<Scalar>(b) - triple<Scalar>(a), triple<Scalar>(c) - triple<Scalar>(a))
+            .has_value();
     }
 
     /// n triangles from n + 1 ring vertices. Throws `MeshError` when there is no triangle, or one without a basis,
@@ -74,7 +76,9 @@ struct TriangleFan {
         std::optional<FanBasis<Scalar>> before;
         for (std::size_t k = 0; k <= last; ++k) {
             const auto basis = fan_basis<Scalar>(triple<Scalar>(ring[k]) - a, triple<Scalar>(ring[k + 1]) - a);
-            if (!basis) throw MeshError("fan triangle " + std::to_string(k) + " has no area, or one that can't be computed with");
+            if (!basis)
+                throw MeshError("fan triangle " + std::to_string(k) +
+                                " has no area, or one that can't be computed with");
             if (!before) stored.first = fan_first(*basis, a);
             else stored.turns.push_back(fan_turn(*before, *basis, k == last));
             before = basis;
@@ -84,7 +88,8 @@ struct TriangleFan {
     }
 
     template <class Scalar>
-    [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) const {
+    [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
+                                         const PointOf<Scalar>& c) const {
         const Triple<Scalar> apex = triple<Scalar>(a);
         const auto basis = fan_basis<Scalar>(triple<Scalar>(b) - apex, triple<Scalar>(c) - apex);
         return basis ? Stored<Scalar>{fan_first(*basis, apex), {}} : Stored<Scalar>{};
@@ -98,8 +103,10 @@ struct TriangleFan {
 
     /// `Number` has one lane: its mask is bool.
     template <class Number>
-    [[nodiscard]] std::optional<FanAnswer<Number>> evaluate(const First<Number>& first, std::span<const Turn<Number>> turns,
-                                                            const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] std::optional<FanAnswer<Number>> evaluate(const First<Number>& first,
+                                                            std::span<const Turn<Number>> turns,
+                                                            const Triple<Number>& from,
+                                                            const Triple<Number>& to) const {
         const Triple<Number> back = from - to;
         Line<Number> line{{}, {}, first.height(from), dot(first.height.normal, back)};
         Nearest<Number> nearest;
@@ -170,10 +177,12 @@ struct TriangleFan {
             if (new_u >= Number{} && u_plus_v >= new_u && u_plus_v <= Number(1)) *this = {at, new_u, u_plus_v, 0, true};
         }
         void take(const Number& at, const Number& new_u, const Number& new_v, std::size_t number) {
-            if (new_u >= Number{} && new_v >= Number{} && new_u + new_v <= Number(1)) *this = {at, new_u, new_v, number, true};
+            if (new_u >= Number{} && new_v >= Number{} && new_u + new_v <= Number(1))
+                *this = {at, new_u, new_v, number, true};
         }
         void take_last(const Number& at, const Number& new_v, const Number& u_plus_v, std::size_t number) {
-            if (new_v >= Number{} && u_plus_v >= new_v && u_plus_v <= Number(1)) *this = {at, u_plus_v - new_v, new_v, number, true};
+            if (new_v >= Number{} && u_plus_v >= new_v && u_plus_v <= Number(1))
+                *this = {at, u_plus_v - new_v, new_v, number, true};
         }
         [[nodiscard]] std::optional<FanAnswer<Number>> answer() const {
             if (!found) return std::nullopt;

@@ -46,12 +46,14 @@ struct Watertight {
     using Stored = Vertices<Number>;
 
     template <class Scalar>
-    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) const {
+    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
+                                           const PointOf<Scalar>& c) const {
         return {triple<Scalar>(a), triple<Scalar>(b), triple<Scalar>(c)};
     }
 
     template <class Number>
-    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& t, const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& t, const Triple<Number>& from,
+                                          const Triple<Number>& to) const {
         const Number zero{};
         const Triple<Number> way = to - from;
         const auto magnitude = [&zero](const Number& x) { return select(x < zero, -x, x); };
@@ -61,7 +63,9 @@ struct Watertight {
         const Mask<Number> x_is_z = x_beats_y & x_beats_z;
         const Mask<Number> y_is_z = size[1] >= size[2];
         const auto turned = [&](const Triple<Number>& p) -> Triple<Number> {
-            const auto pick = [&](std::size_t i, std::size_t j, std::size_t k) { return select(x_is_z, p[i], select(y_is_z, p[j], p[k])); };
+            const auto pick = [&](std::size_t i, std::size_t j, std::size_t k) {
+                return select(x_is_z, p[i], select(y_is_z, p[j], p[k]));
+            };
             return {pick(1, 2, 0), pick(2, 0, 1), pick(0, 1, 2)};
         };
         const Triple<Number> d = turned(way);
