@@ -21,7 +21,7 @@ struct MeshReport {
     std::size_t non_manifold_edges = 0;     ///< edges with more than two
     std::size_t misoriented_edges = 0;      ///< edges, not borders, that more triangles follow one way than the other
     std::size_t non_manifold_vertices = 0;  ///< vertices whose triangles fall into several fans that share no edge
-    std::size_t t_junctions = 0;            ///< border vertices in the middle of a border edge, or within rounding of it
+    std::size_t t_junctions = 0;            ///< border vertices in the middle of a border edge, or within rounding
     std::size_t components = 0;             ///< sets of triangles joined by edges
 
     std::vector<std::uint32_t> zero_area_triangles;

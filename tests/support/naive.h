@@ -97,14 +97,9 @@ class NaiveMesh {
                 detail::measure_path<Scalar>(corners_[i], path, measured);
                 const detail::Measures m =
                     detail::CertifiedFace<double>(path, measured, decision, detail::k_refine, unused).measures();
-                if (!options.accept({faces_[i],
-                                     i,
-                                     decision.side,
-                                     decision.feature,
-                                     decision.feature_index,
-                                     decision.at_start,
-                                     m.fraction,
-                                     {m.barycentric[0], m.barycentric[1], m.barycentric[2]}}))
+                const Vec3<double> barycentric(m.barycentric[0], m.barycentric[1], m.barycentric[2]);
+                if (!options.accept({faces_[i], i, decision.side, decision.feature, decision.feature_index,
+                                     decision.at_start, m.fraction, barycentric}))
                     continue;
             }
             found.push_back({i, decision});
