@@ -14,10 +14,7 @@ namespace pierce::test {
 template <class Scalar>
 TriangleSoup<Scalar> lattice_and_shards() {
     TriangleSoup<double> soup = polycube(4, 0.5, 2, 3);
-    const auto first = static_cast<std::uint32_t>(soup.positions.size());
-    const TriangleSoup<double> more = shards(400, 5);
-    for (const Vec3<double>& p : more.positions) soup.positions.push_back(6 * p);
-    for (const IndexTriple& t : more.triangles) soup.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    append(soup, moved<double>(shards(400, 5), 6, Vec3<double>::Zero()));
     soup.triangles.push_back({0, 0, 1});  // of area zero
     for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) soup.faces.push_back(i / 2);
     return moved<Scalar>(soup, 1, Vec3<double>(0.5, 0.25, 0));

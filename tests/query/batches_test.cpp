@@ -234,12 +234,9 @@ std::array<std::uint64_t, 9> fields(const QueryCounters& c) {
 // full.
 TYPED_TEST(Batches, count_as_single_calls_do_whoever_is_beside_them) {
     auto stadium = this->soup_;  // small and large triangles, for more than one level
-    const auto first = static_cast<std::uint32_t>(stadium.positions.size());
     const auto hills = moved<TypeParam>(terrain(40, 0.1, 3), 1e-3, Vec3<double>::Zero());
-    stadium.positions.insert(stadium.positions.end(), hills.positions.begin(), hills.positions.end());
-    for (const IndexTriple& t : hills.triangles)
-        stadium.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     stadium.faces.clear();
+    append(stadium, hills);
     for (const double cell : {0.0, 0.1, 1.0, 10.0}) {
         const CollisionMesh<TypeParam> mesh(stadium.view(), {.cell_size = cell});
         std::vector<Segment<TypeParam>> segments = batch_segments(stadium.view(), 1500, 9);

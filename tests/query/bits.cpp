@@ -22,10 +22,7 @@ TriangleSoup<double> splinters(std::uint32_t count, std::uint64_t seed) {
         const Vec3<double> along = size * random.direction();
         const Vec3<double> across = thin * size * random.direction();
         const double part = random.unit();
-        soup.positions.push_back(a);
-        soup.positions.push_back(a + along);
-        soup.positions.push_back(a + part * along + across);
-        soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        add_triangle(soup, a, a + along, a + part * along + across);
     }
     return soup;
 }

@@ -14,10 +14,7 @@ using V = Vec3<double>;
 // Ten floors, one above the other; floor i is at height i.
 TriangleSoup<double> floors() {
     TriangleSoup<double> soup;
-    for (std::uint32_t i = 0; i < 10; ++i) {
-        for (const V& p : {V(0, 0, i), V(4, 0, i), V(0, 4, i)}) soup.positions.push_back(p);
-        soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-    }
+    for (int i = 0; i < 10; ++i) add_triangle(soup, V(0, 0, i), V(4, 0, i), V(0, 4, i));
     return soup;
 }
 
@@ -101,10 +98,8 @@ Reason reason_for(const std::vector<FaceVerdict>& verdicts, std::uint32_t face) 
 TEST(Explain, gives_each_face_its_reason) {
     TriangleSoup<double> soup;
     const auto add = [&](const V& a, const V& b, const V& c) {
-        const auto first = static_cast<std::uint32_t>(soup.positions.size());
-        for (const V& p : {a, b, c}) soup.positions.push_back(p);
-        soup.triangles.push_back({first, first + 1, first + 2});
-        return first / 3;
+        add_triangle(soup, a, b, c);
+        return static_cast<std::uint32_t>(soup.triangles.size() - 1);
     };
     const V x(4, 0, 0);
     const V y(0, 4, 0);
