@@ -1,5 +1,5 @@
-// Which of several hits is the first, and which count at all: ties, hits closer than a double tells, `max_fraction`, sides,
-// and what `all_hits` leaves out. Small cases that can be checked by eye.
+// Which of several hits is the first, and which count at all: ties, hits closer than a double can tell, `max_fraction`,
+// sides, and what `all_hits` leaves out. Small cases that can be checked by eye.
 #include <array>
 #include <cmath>
 #include <limits>
