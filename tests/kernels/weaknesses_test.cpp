@@ -170,6 +170,15 @@ TEST(KernelWeaknesses, ErrorsOfAFanGrowAlongItsMembers) {
     EXPECT_GT(worst[256], 10 * worst[64]);
 }
 
+// Of the segments aimed at an edge or a corner that triangles share some get through, but none past these two kernels.
+void expect_holes_but_in_two(const std::map<std::string, int>& through, const char* what) {
+    for (const auto& [name, count] : through) {
+        std::printf("%-17s %d segments %s\n", name.c_str(), count, what);
+        if (name == "watertight" || name == "exact") EXPECT_EQ(count, 0) << name;
+        else EXPECT_GT(count, 0) << name;
+    }
+}
+
 // Two triangles that share an edge, and segments from the front of both through points of the edge.
 TEST(KernelWeaknesses, OnlyWatertightAndExactHaveNoCracksAtSharedEdges) {
     Random random(4);
@@ -194,13 +203,7 @@ TEST(KernelWeaknesses, OnlyWatertightAndExactHaveNoCracksAtSharedEdges) {
         for_each_kernel(crack);
         crack("exact", kernels::exact);
     }
-    for (const auto& [name, count] : through) {
-        std::printf("%-17s %d segments pass between two triangles\n", name.c_str(), count);
-        if (name == "watertight" || name == "exact")
-            EXPECT_EQ(count, 0) << name;
-        else
-            EXPECT_GT(count, 0) << name;
-    }
+    expect_holes_but_in_two(through, "pass between two triangles");
 }
 
 // A closed fan around a corner, and segments through it: exactly, as nearly as coordinates allow.
@@ -233,13 +236,7 @@ TEST(KernelWeaknesses, OnlyWatertightAndExactHaveNoHolesAtCorners) {
         for_each_kernel(leak);
         leak("exact", kernels::exact);
     }
-    for (const auto& [name, count] : through) {
-        std::printf("%-17s %d segments pass through the corner\n", name.c_str(), count);
-        if (name == "watertight" || name == "exact")
-            EXPECT_EQ(count, 0) << name;
-        else
-            EXPECT_GT(count, 0) << name;
-    }
+    expect_holes_but_in_two(through, "pass through the corner");
 }
 
 // A segment down the z axis, and an edge that passes it at a distance of 2^-47: both products of its edge function are

@@ -32,14 +32,6 @@ struct One {
     }
 };
 
-// The distance of a value from the exact one, in units in the last place of `at`.
-template <class Scalar>
-double ulps(Scalar value, const Q& exact, double at) {
-    const auto near = static_cast<Scalar>(std::abs(at));
-    const double ulp = double(std::nextafter(near, std::numeric_limits<Scalar>::infinity())) - double(near);
-    return std::abs(CGAL::to_double((Q(double(value)) - exact) / Q(ulp)));
-}
-
 struct Worst {
     int hits = 0;
     double fraction = 0;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
+#include <support/boxes.h>
 #include <support/oracles.h>
 #include <support/pairs.h>
 
@@ -14,15 +15,6 @@ namespace pierce::test {
 namespace {
 
 using V = Vec3<double>;
-
-bool boxes_apart(const Pair& pair) {
-    const auto& [path, c] = pair;
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (std::max(path.from[k], path.to[k]) < std::min({c[0][k], c[1][k], c[2][k]})) return true;
-        if (std::min(path.from[k], path.to[k]) > std::max({c[0][k], c[1][k], c[2][k]})) return true;
-    }
-    return false;
-}
 
 // What explain() must say of a face that is alone.
 FaceVerdict expected(const Pair& pair, Sides sides) {
@@ -61,7 +53,7 @@ TEST(ExplainReasons, are_those_of_rational_arithmetic) {
         const CollisionMesh<double> mesh({positions, triangles});
         for (const Sides sides : {Sides::front, Sides::back, Sides::both}) {
             const auto verdicts = mesh.explain({vec(pair.path.from), vec(pair.path.to)}, {.sides = sides});
-            if (boxes_apart(pair)) {
+            if (boxes_apart(pair.path, pair.corners)) {
                 ASSERT_TRUE(verdicts.empty() || verdicts[0].reason == Reason::apart ||
                             verdicts[0].reason == Reason::zero_area);
                 continue;

@@ -12,14 +12,6 @@ namespace {
 
 using Q = RationalOracle::Q;
 
-// The distance of a value from the exact one, in steps of `Scalar` at `at`.
-template <class Scalar>
-double steps(Scalar value, const Q& exact, double at) {
-    const auto near = static_cast<Scalar>(std::abs(at));
-    const double step = double(std::nextafter(near, std::numeric_limits<Scalar>::infinity())) - double(near);
-    return std::abs(CGAL::to_double((Q(double(value)) - exact) / Q(step)));
-}
-
 template <class Scalar>
 void check_values() {
     Random random(21);
@@ -61,7 +53,7 @@ void check_values() {
             ++coarse;
         else ++fine;
         exact_sides += counters.exact_sides > 0 ? 1 : 0;
-        fraction = std::max(fraction, steps(hit->exact_fraction, exact.fraction(), CGAL::to_double(exact.fraction())));
+        fraction = std::max(fraction, ulps(hit->exact_fraction, exact.fraction(), CGAL::to_double(exact.fraction())));
         ASSERT_LE(Q(double(hit->fraction)), exact.fraction()) << "a lower bound: " << describe(pair);
         // Exactly 0 is what these are, not nearly.
         ASSERT_TRUE(!hit->at_start || hit->exact_fraction == 0) << describe(pair);
@@ -74,13 +66,13 @@ void check_values() {
         Vec3<double> direction;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto at = static_cast<int>(k);
-            weight = std::max(weight, steps(hit->barycentric[at], exact.weight(k), 1));
+            weight = std::max(weight, ulps(hit->barycentric[at], exact.weight(k), 1));
             ASSERT_GE(hit->barycentric[at], 0) << describe(pair);
             ASSERT_LE(hit->barycentric[at], 1) << describe(pair);
             direction[at] = exact.normal_ratio(k);
         }
         direction.normalize();
-        for (int k = 0; k < 3; ++k) normal = std::max(normal, steps(hit->normal[k], Q(direction[k]), 1));
+        for (int k = 0; k < 3; ++k) normal = std::max(normal, ulps(hit->normal[k], Q(direction[k]), 1));
     }
     std::cout << hits << " hits; off by at most: fraction " << fraction << ", weights " << weight << ", normal "
               << normal << " units in the last place; " << coarse << " in double, " << fine << " in double-double, "

@@ -13,6 +13,7 @@
 #include <query/place.h>
 #include <query/report.h>
 #include <query/values.h>
+#include <support/boxes.h>
 
 namespace pierce::test {
 
@@ -69,14 +70,6 @@ class NaiveMesh {
         return {detail::to_point(segment.from), detail::to_point(segment.to)};
     }
 
-    static bool apart(const detail::Path& path, const detail::Corners& c) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (std::max(path.from[k], path.to[k]) < std::min({c[0][k], c[1][k], c[2][k]})) return true;
-            if (std::min(path.from[k], path.to[k]) > std::max({c[0][k], c[1][k], c[2][k]})) return true;
-        }
-        return false;
-    }
-
     [[nodiscard]] int order(const detail::Path& path, std::uint32_t x, std::uint32_t y) const {
         return detail::compare_fractions(path, corners_[x], corners_[y]);
     }
@@ -85,7 +78,7 @@ class NaiveMesh {
     [[nodiscard]] std::vector<Found> hits(const detail::Path& path, const QueryOptions& options) const {
         std::vector<Found> found;
         for (std::uint32_t i = 0; i < corners_.size(); ++i) {
-            if (apart(path, corners_[i])) continue;
+            if (boxes_apart(path, corners_[i])) continue;
             const detail::Decision decision = detail::decide(path, corners_[i], options.sides);
             if (!decision.hit || !detail::fraction_at_most(path, corners_[i], options.max_fraction)) continue;
             if (!options.face_mask.empty() &&
