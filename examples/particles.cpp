@@ -44,8 +44,8 @@ bool is_inside(const pierce::CollisionMesh<double>& mesh, const Vec3& point, dou
             clear = clear && hits[i].feature == pierce::Feature::face;
             crossings += !hits[i].at_start;
         }
-        // A point on the inner side of a face may lie on its plane. To go in from there crosses nothing; to go out is a hit where only
-        // backs count, for which on the plane is behind.
+        // A point on the inner side of a face may lie on its plane. To go in from there crosses nothing; to go out is a
+        // hit where only backs count, for which on the plane is behind.
         const auto leaves = mesh.first_hit({point, point + way}, {.sides = pierce::Sides::back});
         if (leaves && leaves->at_start) {
             clear = clear && leaves->feature == pierce::Feature::face;

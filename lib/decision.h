@@ -27,8 +27,7 @@ struct Decision {
 }
 
 /// The ends pass the plane from a side that counts, and the segment meets the closed triangle. `from`, `to`: the signs
-/// of the ends' sides;
-/// `weight(k)`: that of corner k's weight times their difference. It is asked only if it matters.
+/// of the ends' sides; `weight(k)`: that of corner k's weight times their difference. It is asked only if it matters.
 template <class Weight>
 [[nodiscard]] [[gnu::always_inline]] inline Decision closed_rule(int from, int to, Sides sides, Weight&& weight) {
     Decision decision{};
@@ -37,8 +36,7 @@ template <class Weight>
     if (!front && !back) return decision;
 
     // The sides differ, so the line pierces the plane in one point, and the three weights, which add up to the
-    // difference of the sides, have
-    // the sign of that inside and zero on an edge.
+    // difference of the sides, have the sign of that inside and zero on an edge.
     int zeros = 0;
     int last_zero = 0;
     int last_nonzero = 0;

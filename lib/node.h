@@ -10,9 +10,8 @@ constexpr unsigned k_children = 16;
 constexpr unsigned k_most_depth = 40;
 
 /// Scene units are the caller's coordinates times `unit`, a power of two that makes the scene about 1 wide; its lattice
-/// begins at `low` and has
-/// cells of `step` along all axes, a power of two as well. All bounds of a tree are whole numbers on that lattice,
-/// between 0 and 65535.
+/// begins at `low` and has cells of `step` along all axes, a power of two as well. All bounds of a tree are whole
+/// numbers on that lattice, between 0 and 65535.
 struct Frame {
     double unit = 1;
     double low[3] = {};   ///< of the lattice, in scene units
@@ -30,9 +29,8 @@ struct alignas(64) Node {
     std::uint32_t child[k_children];
 };
 
-/// The same for a scene whose faces are too small for its lattice: bounds in a frame of the node's own, child = origin
-/// + bound * step in
-/// scene units relative to `Frame::low`.
+/// The same for a scene whose faces are too small for its lattice: bounds in a frame of the node's own,
+/// child = origin + bound * step in scene units relative to `Frame::low`.
 struct alignas(64) CoarseNode {
     std::uint8_t bounds[6][k_children];
     double origin[3];

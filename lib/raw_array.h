@@ -1,6 +1,5 @@
 // An array whose elements are written before they are read: not set to zero first, so that it costs one pass less, and
-// whichever thread
-// writes a page first has the trouble of getting it.
+// whichever thread writes a page first has the trouble of getting it.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +19,8 @@ struct Free {
 };
 
 /// Large ones in pages of two megabytes where the system has them, since random places in them are what queries read;
-/// the rest behind the
-/// last whole one in small pages, so that no more is used than asked for. (Measured on 276,000 faces: a sixth less time
-/// for a build,
-/// a third less for queries in random order.)
+/// the rest behind the last whole one in small pages, so that no more is used than asked for. (Measured on 276,000
+/// faces: a sixth less time for a build, a third less for queries in random order.)
 inline void* allocate_raw(std::size_t bytes, std::size_t alignment) {
     constexpr std::size_t k_page = std::size_t{1} << 21;
     void* memory = nullptr;

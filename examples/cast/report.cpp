@@ -35,8 +35,8 @@ void write_mesh(std::ostream& out, const Report& report) {
     const auto& mesh = report.mesh;
     out << "mesh      " << counted(report.faces, "face");
     if (mesh.triangles != report.faces) out << " cut into " << counted(mesh.triangles, "triangle");
-    out << ", of them " << grouped(mesh.degenerate) << " of zero area and " << counted(report.odd.duplicates, "duplicate")
-        << "; " << counted(mesh.vertices, "vertex", "vertices") << "; "
+    out << ", of them " << grouped(mesh.degenerate) << " of zero area and "
+        << counted(report.odd.duplicates, "duplicate") << "; " << counted(mesh.vertices, "vertex", "vertices") << "; "
         << openness(report.odd) << '\n';
     if (mesh.broadphase == pierce::Broadphase::grid)
         out << "grid      cells of " << mesh.cell_size << ", " << counted(mesh.grid_references, "reference");

@@ -40,8 +40,8 @@ using Points = Eigen::Ref<const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>, 0, Eig
 
 /// Triangles in a broadphase (`BuildOptions`). Copies what it needs of the mesh.
 ///
-/// Queries never throw, never assert and end for every input. The answer depends on the mesh and the segment only, to the
-/// last bit: not on the broadphase, the threads, the machine or the order of queries. One end may be as far away as
+/// Queries never throw, never assert and end for every input. The answer depends on the mesh and the segment only, to
+/// the last bit: not on the broadphase, the threads, the machine or the order of queries. One end may be as far away as
 /// numbers go; where both are further from the mesh than some 10^9 times its size, boxes are told apart less and less
 /// well, and queries get slower.
 template <class Scalar>
@@ -50,8 +50,8 @@ class CollisionMesh {
 
   public:
     /// Throws `MeshError` when an index is out of range or a coordinate is not finite, naming the face or vertex, and
-    /// when there are more than 2^32 - 2 vertices or 2^28 - 1 triangles; std::invalid_argument where a name or number of an option has no
-    /// meaning. A mesh without triangles is fine, and is never hit.
+    /// when there are more than 2^32 - 2 vertices or 2^28 - 1 triangles; std::invalid_argument where a name or number
+    /// of an option has no meaning. A mesh without triangles is fine, and is never hit.
     explicit CollisionMesh(const MeshView<Scalar>& mesh, const BuildOptions& options = {});
     ~CollisionMesh();
     CollisionMesh(CollisionMesh&&) noexcept;
@@ -66,21 +66,23 @@ class CollisionMesh {
     /// Whether there is any hit.
     [[nodiscard]] bool any_hit(const Segment<Scalar>& segment, const QueryOptions& options = {}) const noexcept;
 
-    /// The first `out.size()` hits in order of (fraction, face, triangle), one for each triangle that is hit. Returns how
-    /// many there are in all: if that is more than `out.size()`, the last ones were left out. Each point is verified on its own way
-    /// from the start, so the time is quadratic in the number of hits kept; with an empty `out` they are only counted.
+    /// The first `out.size()` hits in order of (fraction, face, triangle), one for each triangle that is hit. Returns
+    /// how many there are in all: if that is more than `out.size()`, the last ones were left out. Each point is
+    /// verified on its own way from the start, so the time is quadratic in the number of hits kept; with an empty `out`
+    /// they are only counted.
     std::size_t all_hits(const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
                          const QueryOptions& options = {}) const noexcept;
 
-    /// A point moves in a straight line from `from` to `to` over one step: when and where does it first run into the mesh?
-    /// If the answer is empty it may be moved to `to`; otherwise to the hit's `point`, and never further.
+    /// A point moves in a straight line from `from` to `to` over one step: when and where does it first run into the
+    /// mesh? If the answer is empty it may be moved to `to`; otherwise to the hit's `point`, and never further.
     [[nodiscard]] std::optional<SweepHit<Scalar>> sweep(const Vec3<Scalar>& from, const Vec3<Scalar>& to,
                                                         const QueryOptions& options = {}) const noexcept;
 
     /// Many queries in one call: `out[i]` is what the single query for number i gives, to the last bit, whatever the
-    /// executor and however the queries are cut into calls. With the tree sixteen queries go on together, each while others
-    /// wait for memory; where it has more than 16 nodes on a path, one after the other. Returns the number of hits. Allocates
-    /// nothing. `out` must be as long as the queries are many; if it is not, std::invalid_argument is thrown.
+    /// executor and however the queries are cut into calls. With the tree sixteen queries go on together, each while
+    /// others wait for memory; where it has more than 16 nodes on a path, one after the other. Returns the number of
+    /// hits. Allocates nothing. `out` must be as long as the queries are many; if it is not, std::invalid_argument is
+    /// thrown.
     std::size_t first_hits(std::span<const Segment<Scalar>> segments, std::span<std::optional<Hit<Scalar>>> out,
                            const BatchOptions& options = {}) const;
     std::size_t any_hits(std::span<const Segment<Scalar>> segments, std::span<std::uint8_t> out,
@@ -89,31 +91,33 @@ class CollisionMesh {
                              std::span<std::optional<SweepHit<Scalar>>> out, const BatchOptions& options = {}) const;
 
     /// The same for points as the columns of matrices, which may be blocks or maps of others.
-    std::size_t first_hits(const Points<Scalar>& from, const Points<Scalar>& to, std::span<std::optional<Hit<Scalar>>> out,
-                           const BatchOptions& options = {}) const;
+    std::size_t first_hits(const Points<Scalar>& from, const Points<Scalar>& to,
+                           std::span<std::optional<Hit<Scalar>>> out, const BatchOptions& options = {}) const;
     std::size_t any_hits(const Points<Scalar>& from, const Points<Scalar>& to, std::span<std::uint8_t> out,
                          const BatchOptions& options = {}) const;
     std::size_t sweep_points(const Points<Scalar>& from, const Points<Scalar>& to,
                              std::span<std::optional<SweepHit<Scalar>>> out, const BatchOptions& options = {}) const;
 
-    /// How often the segment passes through the surface: +1 for each crossing from the front to the back of a face, -1 for each
-    /// from back to front. Another rule than that for hits: the ends are taken as moved by an infinitesimal step that is
-    /// the same for all queries, so that every crossing belongs to exactly one face, also through edges and vertices. On a
-    /// closed, consistently oriented mesh the result is the winding number at `to` less that at `from`. Not finite: 0.
+    /// How often the segment passes through the surface: +1 for each crossing from the front to the back of a face, -1
+    /// for each from back to front. Another rule than that for hits: the ends are taken as moved by an infinitesimal
+    /// step that is the same for all queries, so that every crossing belongs to exactly one face, also through edges
+    /// and vertices. On a closed, consistently oriented mesh the result is the winding number at `to` less that at
+    /// `from`. Not finite: 0.
     [[nodiscard]] int crossings(const Segment<Scalar>& segment, QueryCounters* counters = nullptr) const noexcept;
 
-    /// How many times the surface winds around the point: 1 inside of a closed mesh whose faces look outwards, 0 outside. A point
-    /// of the surface itself is taken as moved as in `crossings`. On an open mesh the answer is that of one way out,
-    /// along an axis; see `mesh_report`. Not finite: 0.
+    /// How many times the surface winds around the point: 1 inside of a closed mesh whose faces look outwards, 0
+    /// outside. A point of the surface itself is taken as moved as in `crossings`. On an open mesh the answer is that
+    /// of one way out, along an axis; see `mesh_report`. Not finite: 0.
     [[nodiscard]] int winding_number(const Vec3<Scalar>& point, QueryCounters* counters = nullptr) const noexcept;
 
     /// Whether the winding number is not 0.
     [[nodiscard]] bool contains(const Vec3<Scalar>& point, QueryCounters* counters = nullptr) const noexcept;
 
-    /// Why each face near the segment is its first hit or is not, in the order of triangles. Near are those whose box is
-    /// no further from the segment's, along each axis, than that is long along its longest. For debugging: it looks at
-    /// all faces, in exact arithmetic where boxes overlap, and takes memory for the answer.
-    [[nodiscard]] std::vector<FaceVerdict> explain(const Segment<Scalar>& segment, const QueryOptions& options = {}) const;
+    /// Why each face near the segment is its first hit or is not, in the order of triangles. Near are those whose box
+    /// is no further from the segment's, along each axis, than that is long along its longest. For debugging: it looks
+    /// at all faces, in exact arithmetic where boxes overlap, and takes memory for the answer.
+    [[nodiscard]] std::vector<FaceVerdict> explain(const Segment<Scalar>& segment,
+                                                   const QueryOptions& options = {}) const;
 
     /// What is odd about the mesh, and whether it can keep particles in. Computed anew by each call, on one thread.
     /// On a closed mesh in about the time of a build (n log n for n triangles around one vertex). Each border edge

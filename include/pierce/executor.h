@@ -7,7 +7,8 @@
 
 namespace pierce {
 
-/// A reference to work in numbered parts: `task(i)` does part i. Not owned. Parts may run at the same time; none throws.
+/// A reference to work in numbered parts: `task(i)` does part i. Not owned. Parts may run at the same time; none
+/// throws.
 class Task {
   public:
     template <class Callable>
@@ -23,8 +24,9 @@ class Task {
     void (*call_)(void*, std::size_t);
 };
 
-/// A reference to something that runs a task: `executor(parts, task)` calls `task(i)` once for each i below `parts`, in any order and on any
-/// threads, and returns when all are done. Not owned. One that is empty runs the parts one after another.
+/// A reference to something that runs a task: `executor(parts, task)` calls `task(i)` once for each i below `parts`, in
+/// any order and on any threads, and returns when all are done. Not owned. One that is empty runs the parts one after
+/// another.
 /// Answers don't depend on it, not in one bit. `pierce/tbb.h` has one for oneTBB.
 class Executor {
   public:

@@ -12,28 +12,30 @@
 
 namespace pierce {
 
-/// Triangles around one vertex, each joined to the next by an edge that runs from it: k is (apex, ring[k], ring[k + 1]), with the same
-/// orientation as in the mesh.
+/// Triangles around one vertex, each joined to the next by an edge that runs from it: k is (apex, ring[k],
+/// ring[k + 1]), with the same orientation as in the mesh.
 struct Fan {
     std::uint32_t apex = 0;
-    std::vector<std::uint32_t> ring;       ///< vertices: one more than triangles; the first again at the end if the fan is closed
+    std::vector<std::uint32_t> ring;       ///< vertices, one more than triangles; a closed fan's last is its first
     std::vector<std::uint32_t> triangles;  ///< their places in `MeshView::triangles`
 
     [[nodiscard]] bool closed() const { return ring.size() > 3 && ring.front() == ring.back(); }
 };
 
-/// Triangles in a fan of `fans_of`, unless told otherwise: each hands its errors on to the next. Measured in float around a flat vertex, once round
-/// (KernelWeaknesses.ErrorsOfAFanGrowAlongItsMembers): u and v are off by up to 9e-7 with 10 members, 3.5e-6 with 16, 4.5e-4 with 64, 2e-2 with
-/// 256; by 2e-7, 3e-7, 1.5e-6, 6e-6 if these triangles are tested alone. So many are found at the tip of a cone or a pole; elsewhere
-/// nothing is cut, and what is cut has 6 (1 + 1/8) numbers a triangle at most.
+/// Triangles in a fan of `fans_of`, unless told otherwise: each hands its errors on to the next. Measured in float
+/// around a flat vertex, once round (KernelWeaknesses.ErrorsOfAFanGrowAlongItsMembers): u and v are off by up to 9e-7
+/// with 10 members, 3.5e-6 with 16, 4.5e-4 with 64, 2e-2 with 256; by 2e-7, 3e-7, 1.5e-6, 6e-6 if these triangles are
+/// tested alone. So many are found at the tip of a cone or a pole; elsewhere nothing is cut, and what is cut has
+/// 6 (1 + 1/8) numbers a triangle at most.
 inline constexpr std::size_t k_most_in_fan = 16;
 
-/// Covers each triangle of the mesh exactly once, by fans of at most `most` (0 is taken as 1). Greedy: the vertex with the most uncovered
-/// triangles is next; these are chained, from borders first, and each chain is a fan, so that a vertex where several sheets meet, or a
-/// non-manifold edge, gives several. A triangle without a basis at one of its corners (`TriangleFan::has_basis`), which includes those that name
-/// a vertex twice, is a fan of its own.
+/// Covers each triangle of the mesh exactly once, by fans of at most `most` (0 is taken as 1). Greedy: the vertex with
+/// the most uncovered triangles is next; these are chained, from borders first, and each chain is a fan, so that a
+/// vertex where several sheets meet, or a non-manifold edge, gives several. A triangle without a basis at one of its
+/// corners (`TriangleFan::has_basis`), which includes those that name a vertex twice, is a fan of its own.
 ///
-/// O(F log F) time and O(F) memory for F triangles, if valences are bounded. Indices must be in range: throws `MeshError` naming the triangle.
+/// O(F log F) time and O(F) memory for F triangles, if valences are bounded. Indices must be in range: throws
+/// `MeshError` naming the triangle.
 template <class Scalar>
 [[nodiscard]] std::vector<Fan> fans_of(const MeshView<Scalar>& mesh, std::size_t most = k_most_in_fan);
 
@@ -60,7 +62,8 @@ struct Wedge {
     return {t[(k + 1) % 3], t[(k + 2) % 3], triangle};
 }
 
-/// Joins wedges into fans: where one ends another may begin. Chains that nothing leads to come first, what is left are rings.
+/// Joins wedges into fans: where one ends another may begin. Chains that nothing leads to come first, what is left are
+/// rings.
 inline void chain(std::uint32_t apex, const std::vector<Wedge>& wedges, std::vector<Fan>& fans) {
     std::multimap<std::uint32_t, Wedge> by_first;
     std::map<std::uint32_t, int> surplus;  // wedges that begin at a ring vertex, less those that end there
@@ -92,7 +95,8 @@ template <class Scalar>
     return true;
 }
 
-/// Appends the fan in as few parts as have at most `most` triangles each, all of about the same length: so that none has more errors than it must.
+/// Appends the fan in as few parts as have at most `most` triangles each, all of about the same length: so that none
+/// has more errors than it must.
 inline void append_in_parts(const Fan& fan, std::size_t most, std::vector<Fan>& fans) {
     const std::size_t count = fan.triangles.size();
     const std::size_t parts = (count + most - 1) / most;
@@ -127,7 +131,8 @@ std::vector<Fan> fans_of(const MeshView<Scalar>& mesh, std::size_t most) {
         }
     }
 
-    // Vertices by the number of their uncovered triangles. That only falls: a vertex found too high is moved down to where it belongs.
+    // Vertices by the number of their uncovered triangles. That only falls: a vertex found too high is moved down to
+    // where it belongs.
     std::vector<std::vector<std::uint32_t>> with_count;
     const auto file = [&](std::uint32_t vertex, std::size_t number) {
         if (with_count.size() <= number) with_count.resize(number + 1);

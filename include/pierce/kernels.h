@@ -3,8 +3,8 @@
 //   const auto stored = pierce::kernels::bloom.prepare(a, b, c);          // a, b, c: Eigen::Vector3f or Vector3d
 //   if (const auto hit = pierce::kernels::bloom.test(stored, from, to))    // hit->fraction, hit->u, hit->v
 //
-// For when you have your own structure around triangles. All but `exact` round as they go: what each then gets wrong is said where it
-// is declared. Read kernels/concept.h first.
+// For when you have your own structure around triangles. All but `exact` round as they go: what each then gets wrong is
+// said where it is declared. Read kernels/concept.h first.
 #pragma once
 
 #include <pierce/kernels/baldwin_weber.h>

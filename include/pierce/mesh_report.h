@@ -9,20 +9,20 @@
 
 namespace pierce {
 
-/// Vertices with equal coordinates count as one here, whatever their numbers: that is how queries see them. Triangles of area
-/// zero are counted, and left out of the rest. Lists hold the first `k_examples` cases.
+/// Vertices with equal coordinates count as one here, whatever their numbers: that is how queries see them. Triangles
+/// of area zero are counted, and left out of the rest. Lists hold the first `k_examples` cases.
 struct MeshReport {
     static constexpr std::size_t k_examples = 8;
     using Edge = std::array<std::uint32_t, 2>;  ///< numbers of positions
 
-    std::size_t zero_area = 0;           ///< triangles: they are never hit
-    std::size_t duplicates = 0;          ///< triangles with the same corners as one before, either way round
-    std::size_t border_edges = 0;        ///< edges with one triangle: a particle can get through beside them
-    std::size_t non_manifold_edges = 0;  ///< edges with more than two
-    std::size_t misoriented_edges = 0;   ///< edges that more triangles follow one way than the other, borders not counted
+    std::size_t zero_area = 0;              ///< triangles: they are never hit
+    std::size_t duplicates = 0;             ///< triangles with the same corners as one before, either way round
+    std::size_t border_edges = 0;           ///< edges with one triangle: a particle can get through beside them
+    std::size_t non_manifold_edges = 0;     ///< edges with more than two
+    std::size_t misoriented_edges = 0;      ///< edges, not borders, that more triangles follow one way than the other
     std::size_t non_manifold_vertices = 0;  ///< vertices whose triangles fall into several fans that share no edge
-    std::size_t t_junctions = 0;         ///< vertices of a border in the middle of a border edge, or within rounding of it
-    std::size_t components = 0;          ///< sets of triangles joined by edges
+    std::size_t t_junctions = 0;            ///< border vertices in the middle of a border edge, or within rounding
+    std::size_t components = 0;             ///< sets of triangles joined by edges
 
     std::vector<std::uint32_t> zero_area_triangles;
     std::vector<std::uint32_t> duplicate_triangles;
@@ -32,8 +32,8 @@ struct MeshReport {
     std::vector<std::uint32_t> non_manifold_vertex_list;
     std::vector<std::uint32_t> t_junction_list;
 
-    /// No edge has more triangles on one side than on the other: then the surface has an inside, `crossings` add up, and no
-    /// particle gets from one side to the other without a hit.
+    /// No edge has more triangles on one side than on the other: then the surface has an inside, `crossings` add up,
+    /// and no particle gets from one side to the other without a hit.
     [[nodiscard]] bool closed() const { return border_edges == 0 && misoriented_edges == 0; }
 
     /// A few lines for people.

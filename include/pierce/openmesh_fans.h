@@ -1,4 +1,5 @@
-// Fans of an OpenMesh mesh, for `kernels::triangle_fan`: the one-ring of a vertex, and the whole mesh. Header only; needs OpenMeshCore.
+// Fans of an OpenMesh mesh, for `kernels::triangle_fan`: the one-ring of a vertex, and the whole mesh. Header only;
+// needs OpenMeshCore.
 #pragma once
 
 #include <pierce/fans.h>
@@ -6,9 +7,10 @@
 
 namespace pierce {
 
-/// The triangles around a vertex, counter-clockwise seen from their front: one closed fan inside the mesh, an open one on its border, and
-/// several where sheets meet in the vertex (OpenMesh's half-edges list these one after the other); none for a vertex without faces.
-/// The numbers are those of vertex and face handles. However many there are: see `k_most_in_fan` for what that costs. O(valence).
+/// The triangles around a vertex, counter-clockwise seen from their front: one closed fan inside the mesh, an open one
+/// on its border, and several where sheets meet in the vertex (OpenMesh's half-edges list these one after the other);
+/// none for a vertex without faces. The numbers are those of vertex and face handles. However many there are: see
+/// `k_most_in_fan` for what that costs. O(valence).
 template <class Mesh>
 [[nodiscard]] std::vector<Fan> one_ring(const Mesh& mesh, OpenMesh::VertexHandle vertex) {
     openmesh_detail::require_triangle_mesh<Mesh>();
@@ -42,7 +44,8 @@ template <class Mesh>
     return kernels::triangle_fan.prepare<Scalar>(position(fan.apex), ring);
 }
 
-/// A decomposition of the faces that are not deleted: `Fan::triangles` holds the numbers of face handles. As `fans_of` for a `MeshView`.
+/// A decomposition of the faces that are not deleted: `Fan::triangles` holds the numbers of face handles. As `fans_of`
+/// for a `MeshView`.
 template <class Mesh>
 [[nodiscard]] std::vector<Fan> fans_of_openmesh(const Mesh& mesh, std::size_t most = k_most_in_fan) {
     const auto soup = from_openmesh(mesh);

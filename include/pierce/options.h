@@ -25,31 +25,32 @@ struct BuildOptions {
     /// Building throws std::invalid_argument where PIERCE_BROADPHASE is another word.
     Broadphase broadphase = Broadphase::automatic;
     /// For the grid: the edge of a cell. Zero leaves it to the library, which looks at the triangles' sizes. It grows
-    /// where the grid would take more memory than `max_grid_bytes`. Building throws MeshError for what is negative or not
-    /// a number.
+    /// where the grid would take more memory than `max_grid_bytes`. Building throws MeshError for what is negative or
+    /// not a number.
     double cell_size = 0;
     /// For the grid: an upper bound for its memory, kept by larger cells, down to what one cell for all needs. Zero
     /// stands for a multiple of the triangles' number.
     std::size_t max_grid_bytes = 0;
-    /// Which wide kernels to use: `avx512`, `avx2`, `sse2`, `neon`, `plain`. If it is empty, the environment variable PIERCE_BACKEND says, and
-    /// without that the machine's fastest. Building throws std::invalid_argument where the machine has none of the name.
+    /// Which wide kernels to use: `avx512`, `avx2`, `sse2`, `neon`, `plain`. If it is empty, the environment variable
+    /// PIERCE_BACKEND says, and without that the machine's fastest. Building throws std::invalid_argument where the
+    /// machine has none of the name.
     std::string_view backend = {};
     /// Builds in parallel, if given.
     Executor executor = {};
 };
 
-/// What a query went through, added up over the queries that were given the same counters. Not thread-safe: one
-/// for each thread.
+/// What a query went through, added up over the queries that were given the same counters. Not thread-safe: one for
+/// each thread.
 struct QueryCounters {
     std::uint64_t queries = 0;
-    std::uint64_t nodes = 0;           ///< nodes of the tree, or cells of the grid, visited
-    std::uint64_t clusters = 0;        ///< clusters of up to eight triangles given to the wide kernels
-    std::uint64_t triangles = 0;       ///< triangles that those could not refuse
-    std::uint64_t exact_decisions = 0; ///< triangles that the filter left doubtful
-    std::uint64_t exact_orders = 0;    ///< pairs of hits too close to be ordered without exact arithmetic
-    std::uint64_t exact_values = 0;    ///< times that a hit's fraction and weights, or its normal, took exact arithmetic
-    std::uint64_t exact_sides = 0;     ///< points so close to a face's plane that their side took exact arithmetic
-    std::uint64_t retreats = 0;        ///< places for verified points that were not clear
+    std::uint64_t nodes = 0;            ///< nodes of the tree, or cells of the grid, visited
+    std::uint64_t clusters = 0;         ///< clusters of up to eight triangles given to the wide kernels
+    std::uint64_t triangles = 0;        ///< triangles that those could not refuse
+    std::uint64_t exact_decisions = 0;  ///< triangles that the filter left doubtful
+    std::uint64_t exact_orders = 0;     ///< pairs of hits too close to be ordered without exact arithmetic
+    std::uint64_t exact_values = 0;     ///< times that fraction and weights, or the normal, took exact arithmetic
+    std::uint64_t exact_sides = 0;      ///< points so close to a face's plane that their side took exact arithmetic
+    std::uint64_t retreats = 0;         ///< places for verified points that were not clear
 };
 
 /// A hit before it is weighed against others: what `QueryOptions::accept` is asked about.
@@ -67,8 +68,8 @@ struct Contact {
 /// A reference to something that is called with a `Contact` and says whether it counts: a lambda, say, that looks up a
 /// texture. It is not owned, and must outlive the query; a temporary lambda in the call itself does.
 ///
-/// It may be asked about the same face more than once, also for the shortened segment to the point that is being verified, so
-/// its answer must depend on the contact only. It must not throw.
+/// It may be asked about the same face more than once, also for the shortened segment to the point that is being
+/// verified, so its answer must depend on the contact only. It must not throw.
 class Accept {
   public:
     Accept() = default;
@@ -89,7 +90,8 @@ class Accept {
     bool (*call_)(void*, const Contact&) = nullptr;
 };
 
-/// Every choice is applied to each hit before the first one is looked for, so what does not count hides nothing behind it.
+/// Every choice is applied to each hit before the first one is looked for, so what does not count hides nothing behind
+/// it.
 struct QueryOptions {
     /// The side that a segment must come from to hit a triangle.
     Sides sides = Sides::front;

@@ -6,7 +6,8 @@
 //       particle = hit->point;                                  // safe to stand on, safe to step from
 //
 // Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, collision_mesh.h.
-// <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single triangles.
+// <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single
+// triangles.
 #pragma once
 
 #include <pierce/collision_mesh.h>

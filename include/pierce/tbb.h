@@ -22,8 +22,8 @@ inline constexpr TbbLoop k_tbb_loop{};
 
 }  // namespace detail
 
-/// For `BuildOptions::executor` and `BatchOptions::executor`; may be kept. It works in the task arena of the thread that calls it, so
-/// `tbb::task_arena` and `tbb::global_control` say how many threads there are.
+/// For `BuildOptions::executor` and `BatchOptions::executor`; may be kept. It works in the task arena of the thread
+/// that calls it, so `tbb::task_arena` and `tbb::global_control` say how many threads there are.
 [[nodiscard]] inline Executor tbb_executor() { return Executor(detail::k_tbb_loop); }
 
 }  // namespace pierce

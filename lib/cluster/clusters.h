@@ -21,11 +21,9 @@ struct ClusterBox {
 };
 
 /// A record of n triangles: nine rows of n Scalars (a.x, a.y, a.z, b.x, ... c.z), then n places of a Scalar's size
-/// whose first four bytes
-/// are the triangle's number in the caller's order. Records lie one behind the other, at `k_row_count` times the place
-/// of their first
-/// triangle. One more, of a triangle that is a point and has the number `k_no_triangle`, is behind the last; `empty`
-/// names it.
+/// whose first four bytes are the triangle's number in the caller's order. Records lie one behind the other, at
+/// `k_row_count` times the place of their first triangle. One more, of a triangle that is a point and has the number
+/// `k_no_triangle`, is behind the last; `empty` names it.
 template <class Scalar>
 struct Clusters {
     RawArray<Scalar> records;

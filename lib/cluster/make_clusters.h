@@ -26,8 +26,8 @@ struct ClusterBuild {
 };
 
 /// Positions have to be finite where a triangle has them; there must be fewer triangles than `k_most_triangles` (the
-/// record behind the last
-/// needs a place as well). `has_zero_area` decides exactly where floating point cannot. Throws only std::bad_alloc.
+/// record behind the last needs a place as well). `has_zero_area` decides exactly where floating point cannot. Throws
+/// only std::bad_alloc.
 template <class Scalar>
 [[nodiscard]] ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero_area)(const Corners&),
                                                  const Executor& executor);

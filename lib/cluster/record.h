@@ -7,8 +7,7 @@
 namespace pierce::detail {
 
 /// Names a cluster: bit 31 is set, bits 28-30 are the number of its triangles less one, bits 0-27 the place of its
-/// first triangle.
-/// (A tree's child reference without bit 31 is the number of a node.)
+/// first triangle. (A tree's child reference without bit 31 is the number of a node.)
 using ClusterRef = std::uint32_t;
 constexpr ClusterRef k_leaf_bit = 0x80000000U;
 constexpr unsigned k_most_in_cluster = 8;

@@ -16,8 +16,8 @@ namespace pierce::detail {
 /// For each of four triangles, whether it is certain that its area is not zero. Edges p, q from one corner and
 /// n = p x q, computed: with u twice the half unit of the numbers and M the largest |component| of p and q, each
 /// component of n is within 8u M^2 (kernel/meeting.h: 4u of sums of two products, each at most M^2). M is kept to where
-/// products lose less than a
-/// thousandth of u M^2 to underflow, and none overflows. `rows`: a.x, a.y, a.z, b.x, ... c.z of the four.
+/// products lose less than a thousandth of u M^2 to underflow, and none overflows. `rows`: a.x, a.y, a.z, b.x, ... c.z
+/// of the four.
 template <class Number>
 [[nodiscard, gnu::always_inline]] inline auto certainly_have_area(const Quad<Number> (&rows)[9]) {
     constexpr bool k_float = std::is_same_v<Number, float>;
@@ -204,8 +204,7 @@ class ClusterWriter {
     }
 
     // Tries to split by position along each axis and by size. Two boxes pay if they have less than three quarters of
-    // the one's area: each costs
-    // a place in a node. Returns how many go first, and puts these first; 0 if nothing pays.
+    // the one's area: each costs a place in a node. Returns how many go first, and puts these first; 0 if nothing pays.
     unsigned best_cut(unsigned begin, unsigned end, Scalar whole) {
         const unsigned n = end - begin;
         Scalar best = Scalar(0.75) * whole;

@@ -1,11 +1,9 @@
 // Exact sums of products of coordinates whose exponents are too far apart for integers of a fixed width: two
-// fixed-point numbers (Kulisch
-// 1971, a long accumulator), one for the terms with a plus and one for those with a minus, as long as the exponents in
-// play need.
+// fixed-point numbers (Kulisch 1971, a long accumulator), one for the terms with a plus and one for those with a minus,
+// as long as the exponents in play need.
 //
 // Integers on a common lattice multiply numbers that are nearly all zeros there: 33 limbs by 33. Here a product is that
-// of three
-// mantissas, 159 bits at most, and is added where it belongs; so a volume costs 24 short products whatever the
+// of three mantissas, 159 bits at most, and is added where it belongs; so a volume costs 24 short products whatever the
 // exponents.
 #pragma once
 
@@ -36,8 +34,7 @@ using OddPoint = std::array<Odd, 3>;
 [[nodiscard]] inline OddPoint odd(const Point& p) { return {Odd(p[0]), Odd(p[1]), Odd(p[2])}; }
 
 /// Products of four doubles are multiples of 2^(-4 1074) below 2^(4 1024), and 512 of them below 2^9 more: 8401 bits,
-/// 132 limbs. What is
-/// added may write zeros into four more.
+/// 132 limbs. What is added may write zeros into four more.
 inline constexpr std::size_t k_most_limbs = 136;
 
 /// A number > 0 or 0: its limbs times 2^exponent, neither end a zero limb. Exponents of numbers from one lattice and

@@ -15,11 +15,9 @@ int crossing(const Path& path, const Corners& corners) {
         const int to = decided(volumes.to_side().sign(), tie);
         if (from == to) return 0;
         for (int k = 0; k < 3; ++k) {
-            // The weight d . (before x after) of a corner, d = to - from, changes by d . (before x -s) + d . (-s x
-            // after), which is
-            // (d x (after - before)) . s. The cross product is zero only if d is parallel to an edge, hence to the
-            // plane,
-            // and then both ends are on one side.
+            // The weight d . (before x after) of a corner, d = to - from, changes by
+            // d . (before x -s) + d . (-s x after), which is (d x (after - before)) . s. The cross product is zero only
+            // if d is parallel to an edge, hence to the plane, and then both ends are on one side.
             int weight = volumes.weight(k).sign();
             if (weight == 0) weight = volumes.edge_shift(k);
             if (weight != from) return 0;

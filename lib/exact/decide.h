@@ -7,8 +7,7 @@
 namespace pierce::detail {
 
 /// The closed rule: the ends pass the plane from a side that counts, and the segment meets the closed triangle. So a
-/// segment in
-/// the plane, of length zero, or on a triangle of area zero (whose sides are all 0) never hits.
+/// segment in the plane, of length zero, or on a triangle of area zero (whose sides are all 0) never hits.
 [[nodiscard]] Decision decide(const Path& path, const Corners& corners, Sides sides);
 
 /// The sign of orient3d: +1 in front of the triangle, 0 on its plane, -1 behind it; 0 for a triangle of area zero.

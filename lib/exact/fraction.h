@@ -11,13 +11,12 @@ namespace pierce::detail {
 [[nodiscard]] int compare_fractions(const Path& path, const Corners& first, const Corners& second);
 
 /// Whether two hits of one path certainly lie on the same point because they lie on one edge or one vertex, by its
-/// coordinates: a line
-/// that passes the plane of an edge meets it in one point. So their fractions are equal, and no arithmetic is needed.
+/// coordinates: a line that passes the plane of an edge meets it in one point. So their fractions are equal, and no
+/// arithmetic is needed.
 [[nodiscard]] bool same_place(const Corners& first, const Decision& one, const Corners& second, const Decision& two);
 
 /// Whether two triangles certainly lie in one plane across an axis, by their coordinates: then a path that hits both
-/// hits them at
-/// one fraction.
+/// hits them at one fraction.
 [[nodiscard]] bool in_one_axis_plane(const Corners& first, const Corners& second);
 
 /// Whether the exact fraction of a hit is at most `limit`. NaN: no.

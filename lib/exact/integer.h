@@ -1,10 +1,9 @@
 // Signed integers of a fixed number of 64-bit limbs: what exact decisions are computed in where the coordinates'
-// exponents are near enough
-// to one another; accumulator.h serves the others.
+// exponents are near enough to one another; accumulator.h serves the others.
 //
 // Why integers and not floating-point expansions (Shewchuk 1997): they have no rounding mode, no underflow and no
-// overflow
-// to guard against, compare and divide as well as they multiply, and measured faster (tests/bench/exact_bench.cpp).
+// overflow to guard against, compare and divide as well as they multiply, and measured faster
+// (tests/bench/exact_bench.cpp).
 #pragma once
 
 #include <bit>

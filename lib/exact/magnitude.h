@@ -33,10 +33,8 @@ template <int N>
 /// The order of a b and c d, where the exponents of both products agree modulo 64.
 ///
 /// By their highest bits where these tell. Each factor is cut below 2^-63 of itself, so a product is by less than
-/// 2^-62: the top of
-/// one, in [2^126, 2^128), by less than 2^66. In full only where the tops are nearer than that: zero limbs skipped, so
-/// that coordinates far
-/// apart make it no longer than their mantissas are.
+/// 2^-62: the top of one, in [2^126, 2^128), by less than 2^66. In full only where the tops are nearer than that: zero
+/// limbs skipped, so that coordinates far apart make it no longer than their mantissas are.
 [[nodiscard]] inline int compare_products(const Magnitude& a, const Magnitude& b, const Magnitude& c,
                                           const Magnitude& d) {
     const bool none = a.zero() || b.zero();

@@ -11,8 +11,7 @@ template <class Scalar>
 [[nodiscard]] Point exact_position(const Path& path, const Corners& corners);
 
 /// Whether a point is strictly on the side of the plane that `from` is strictly on, and as far from it as `from` or at
-/// least `grain` away.
-/// (Of points less than 2^-46 of a grain further than that it may say no.)
+/// least `grain` away. (Of points less than 2^-46 of a grain further than that it may say no.)
 [[nodiscard]] bool is_far_enough(const Corners& corners, const Point& from, const Point& point, double grain);
 
 }  // namespace pierce::detail

@@ -34,9 +34,8 @@ double signed_ratio(const Accumulator& numerator, const Magnitude& denominator) 
 }
 
 // |n|^2 from the highest bits of n: all terms are >= 0, so nothing cancels. A component is cut below 2^-63 of the
-// largest, each square
-// below 2^-62 and to 2^-126; the sum below 2^-61.4, which leaves the quotient within 2^-61 with the 2^-63 of its
-// numerator.
+// largest, each square below 2^-62 and to 2^-126; the sum below 2^-61.4, which leaves the quotient within 2^-61 with
+// the 2^-63 of its numerator.
 Magnitude square_of(const Component (&normal)[3], int length) {
     Wide sum = 0;
     for (const Component& component : normal) {
@@ -103,8 +102,7 @@ Planes exact_planes(const Corners& corners) {
         const Vector<N> c = on_lattice<N>(corners[2], lattice);
         const Vector<2 * N> normal = cross(b - a, c - a);
         // With coordinates below 2^m, a component of n is below 2^(2m+3), one of n x edge below 2^(3m+5), and |n|^2
-        // below
-        // 2^(4m+8): with m <= 64 N - 4 (with_limbs) they fit 2N, 3N and 4N limbs.
+        // below 2^(4m+8): with m <= 64 N - 4 (with_limbs) they fit 2N, 3N and 4N limbs.
         const Integer<4 * N> norm = dot(normal, normal);
         Planes planes{};
         if (norm.zero()) return planes;

@@ -6,8 +6,7 @@
 namespace pierce::detail {
 
 /// Three linear functions of x - b, b being the second corner, which lies on all three planes (Bloom 2002, "Fast ray
-/// tri
-/// (with precomputation)", in the corrected form: `normal` points to the front).
+/// tri (with precomputation)", in the corrected form: `normal` points to the front).
 struct Planes {
     Point normal;    ///< n = (b-a) x (c-a), scaled by a power of two so that its largest component is in [1/2, 1]
     Point weight_c;  ///< the barycentric plane through edge ab and along n: reads 1 at c

@@ -9,8 +9,7 @@
 namespace pierce::detail {
 
 /// q * 2^exponent as a double, for 2^63 <= q: rounded to nearest here, on the integer, so that the processor's rounding
-/// mode
-/// plays no part. Infinity above the range; below the normal range a second rounding by ldexp.
+/// mode plays no part. Infinity above the range; below the normal range a second rounding by ldexp.
 [[nodiscard]] inline double rounded(Wide q, int exponent) {
     while ((q >> 64) != 0) {  // at most once: q < 2^65 in this file
         q = (q >> 1) | (q & 1);
@@ -26,8 +25,7 @@ namespace pierce::detail {
 /// numerator / denominator * 2^exponent for numerator >= 0, denominator > 0.
 ///
 /// Both are cut to 64 bits (relative error below 2^-63 each) and so is the quotient: it is within 2^-61 before the one
-/// rounding
-/// to 53 bits, so the result is within (1/2 + 2^-8) ulp, and 0 and 1 come out as exactly that.
+/// rounding to 53 bits, so the result is within (1/2 + 2^-8) ulp, and 0 and 1 come out as exactly that.
 template <class Numerator, class Denominator>
 [[nodiscard]] inline double ratio(const Numerator& numerator, const Denominator& denominator, int exponent = 0) {
     if (numerator.zero()) return 0.0;

@@ -1,6 +1,5 @@
 // The five determinants that say everything about a segment and a triangle, in either arithmetic: integers of a fixed
-// width, and sums of
-// products for coordinates too far apart for them. The rules read signs, and are written once.
+// width, and sums of products for coordinates too far apart for them. The rules read signs, and are written once.
 #pragma once
 
 #include <exact/magnitude.h>
@@ -30,9 +29,8 @@ class Volumes {
     /// (to - from) . ((next - from) x (other - from)) for corner k, where `other` and `next` are the two corners after
     /// it.
     /// The three add up to from_side() - to_side(); divided by that sum they are the barycentric weights of the point
-    /// where the
-    /// line through the segment meets the plane (Cramer's rule). In front of the triangle the weight is positive
-    /// on the inner side of the edge opposite to corner k.
+    /// where the line through the segment meets the plane (Cramer's rule). In front of the triangle the weight is
+    /// positive on the inner side of the edge opposite to corner k.
     [[nodiscard]] Integer<3 * N> weight(int k) const {
         const Vector<N> after = corner_[(k + 1) % 3] - from_;
         const Vector<N> before = corner_[(k + 2) % 3] - from_;
@@ -114,8 +112,8 @@ class WideVolumes {
 
   private:
     // (b - a) x (c - a) . (x - a) is minus the determinant of the rows (p, 1), p = a, b, c, x. By Laplace along two
-    // pairs of columns, x y and
-    // z 1: for each pair of rows i < j with the others k < l, (-1)^(i+j+1) (x_i y_j - x_j y_i) (z_k - z_l).
+    // pairs of columns, x y and z 1: for each pair of rows i < j with the others k < l, (-1)^(i+j+1) (x_i y_j - x_j
+    // y_i) (z_k - z_l).
     [[nodiscard]] Accumulator volume(const OddPoint& a, const OddPoint& b, const OddPoint& c, const OddPoint& x) const {
         Accumulator sum(lattice_, 3);
         const auto rows = [&sum](bool minus, const OddPoint& i, const OddPoint& j, const OddPoint& k,

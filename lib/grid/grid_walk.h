@@ -116,11 +116,10 @@ class GridWalk {
 // the box in each coordinate. Then the slab F(b) along the walk is not left out, and its rectangle has the cells F(b)
 // across it.
 //
-// Roundings. e = 2^-52 bounds the relative error of one operation in any rounding mode. R = |origin| + |direction| +
-// reach + size, in the maximum norm; `reach` bounds |b| and |low|. An operation that underflows errs by 2^-1074 more,
-// which is nothing beside e * R: sizes are 2^-47 or more (UniformGrid::make). (Nor are the 2^-150 that the box of a
-// float's
-// cluster may have lost when it was scaled.) m is the margin.
+// Roundings. e = 2^-52 bounds the relative error of one operation in any rounding mode.
+// R = |origin| + |direction| + reach + size, in the maximum norm; `reach` bounds |b| and |low|. An operation that
+// underflows errs by 2^-1074 more, which is nothing beside e * R: sizes are 2^-47 or more (UniformGrid::make). (Nor are
+// the 2^-150 that the box of a float's cluster may have lost when it was scaled.) m is the margin.
 //
 //  1. F against walls. With j <= place(b) < j + 1: the error of the rounded b is e * reach, those of the difference, of
 //     the product and of the inverse are each 2 e * reach, at first order; so low + j * size - b <= 7.1 e * reach, and

@@ -1,7 +1,6 @@
 // The reader of each file format: takes the file in memory, gives the mesh or throws. Behind a call that the compiler
-// does not inline:
-// read_mesh has made the arithmetic standard (environment.h), in which numbers are rounded to `Scalar` and polygons are
-// cut.
+// does not inline: read_mesh has made the arithmetic standard (environment.h), in which numbers are rounded to `Scalar`
+// and polygons are cut.
 #pragma once
 
 #include <pierce/triangle_soup.h>

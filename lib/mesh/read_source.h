@@ -43,8 +43,8 @@ class SourceFile {
 /// "1 vertex", "2 vertices".
 [[nodiscard]] std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
 
-/// The two things that can be wrong with a face, in the same words for every format. `counted_from_0` is added where
-/// a file numbers its vertices so, because "3 is out of range: there are 3" would puzzle.
+/// The two things that can be wrong with a face, in the same words for every format. `counted_from_0` is added where a
+/// file numbers its vertices so, because "3 is out of range: there are 3" would puzzle.
 [[nodiscard]] std::string too_few_corners(std::uint64_t corners);
 [[nodiscard]] std::string corner_out_of_range(std::string_view corner, std::uint64_t vertices, bool counted_from_0);
 

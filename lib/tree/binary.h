@@ -19,8 +19,7 @@ struct Binary {
 };
 
 /// What a subtree costs as at most i + 1 children of a wide node (Ylitie, Karras and Laine 2017, section 3.1): expected
-/// steps of a query, times
-/// the scene's area. [0] is its cost as a node of its own.
+/// steps of a query, times the scene's area. [0] is its cost as a node of its own.
 struct alignas(16) CostRow {
     std::array<float, k_children> cost;
 };

@@ -51,8 +51,7 @@ void write_node(NodeList& nodes, std::uint32_t at, const QuadBox<Scalar>* boxes,
 }
 
 /// Writes the tree over binary nodes: some at the top, then what is below, one after the other. On threads each of
-/// these
-/// parts has a list of its own, and the lists are put one behind the other: the tree is the same.
+/// these parts has a list of its own, and the lists are put one behind the other: the tree is the same.
 template <class Scalar, class Encoder>
 class TreeWriter {
   public:
@@ -97,8 +96,7 @@ class TreeWriter {
     void write_one(NodeList& nodes, const Todo& now, std::vector<Todo>& todo) const {
         std::array<typename Collapse<Scalar>::Child, k_children> children;
         // In a frame of the node's own, boxes smaller than some of its 255 steps are all but the same: a segment that
-        // comes to
-        // one of them would go through all.
+        // comes to one of them would go through all.
         const Scalar least_extent = Encoder::k_coarse ? collapse_.extent(now.binary) / 64 : 0;
         const unsigned count = collapse_.children(now.binary, least_extent, children);
         QuadBox<Scalar> boxes[k_children];

@@ -32,9 +32,8 @@ void close_places(Bound (&bounds)[6][k_children], unsigned count) {
 }
 
 /// Bounds on the scene's lattice. x - low is within 2^-53 of itself, of at most 65536 steps, so within 2^-37 steps;
-/// dividing by a power of two
-/// is exact; what scene units lost to underflow (2^-150, 2^-1075) is nothing beside a step where they did (over 2^-18,
-/// node.h's Frame:
+/// dividing by a power of two is exact; what scene units lost to underflow (2^-150, 2^-1075) is nothing beside a step
+/// where they did (over 2^-18, node.h's Frame:
 /// `unit` is below 1 only for scenes wider than 1/2). Taking and adding 2^-30 steps rounds by 2^-37 again and is more
 /// than all that.
 class Lattice {
@@ -61,9 +60,8 @@ class Lattice {
 };
 
 /// Bounds in a frame of the node's own. All that is subtracted is within the scene's extent E of 0, so within 2^-52 E
-/// of the exact number, scene
-/// units lost to underflow included; `slack` is 2^-48 E. Bounds in steps lose 2^-52 of at most 256 in each of two
-/// operations: 2^-40 steps are more.
+/// of the exact number, scene units lost to underflow included; `slack` is 2^-48 E. Bounds in steps lose 2^-52 of at
+/// most 256 in each of two operations: 2^-40 steps are more.
 class OwnFrames {
   public:
     using Kind = CoarseNode;

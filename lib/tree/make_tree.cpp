@@ -19,8 +19,7 @@ constexpr std::uint32_t k_leaf_size = 6;
 // Groups with more than so many times the area that a cluster has when the scene's is shared out are split.
 constexpr double k_large_group = 100;
 // So many steps wide at the lower quartile, clusters are good enough on the scene's lattice. (The stadium has less than
-// 0.05, the
-// kitchen 9, others 300.)
+// 0.05, the kitchen 9, others 300.)
 constexpr double k_fine_enough = 3;
 
 // Nodes of a group with so many clusters, at most: each split leaves one with fewer by one at least, down to a leaf.

@@ -15,9 +15,8 @@
 namespace pierce::detail {
 
 /// Joins `count` items (whose `at` is kept in the leaves, with a `count` that is not 0) to a tree with its root at
-/// `root` and other nodes from
-/// `next` on. False if that takes too many rounds, as where the items' sizes grow along the order: each round would
-/// join one pair.
+/// `root` and other nodes from `next` on. False if that takes too many rounds, as where the items' sizes grow along the
+/// order: each round would join one pair.
 template <class Scalar>
 class Ploc {
   public:

@@ -46,8 +46,7 @@ class SahSplitter {
     }
 
     /// Neither part is empty. Deeper than `k_sah_deep` halves are taken whatever that costs: so no input makes trees of
-    /// any depth or builds of any
-    /// time. The same where bins can't tell the items from one another.
+    /// any depth or builds of any time. The same where bins can't tell the items from one another.
     [[nodiscard]] std::pair<SahSet<Scalar>, SahSet<Scalar>> split(const SahSet<Scalar>& set) {
         const std::uint32_t n = set.size();
         SahSet<Scalar> left{0, set.begin, set.begin, set.depth + 1, {}, {}};
@@ -174,8 +173,8 @@ template <class Scalar, class Item, class Weight>
 }
 
 /// Splits the items in [begin, end) down to sets of at most `leaf_size` and makes nodes of them: `root`, and others
-/// from `next` on. A leaf is what
-/// `make_leaf(set)` makes of it. Returns the first node that is free. `stack` has room for `k_sah_stack` sets.
+/// from `next` on. A leaf is what `make_leaf(set)` makes of it. Returns the first node that is free. `stack` has room
+/// for `k_sah_stack` sets.
 template <class Scalar, class Splitter, class MakeLeaf>
 std::uint32_t make_binary(Splitter& splitter, std::uint32_t begin, std::uint32_t end, std::uint32_t leaf_size,
                           Binary<Scalar>* nodes, std::uint32_t root, std::uint32_t next, SahSet<Scalar>* stack,

@@ -2,8 +2,8 @@
 // stored, 12 numbers.
 //
 // Written from the published description (Wald et al. 2014; Baldwin and Weber 2016, section 4.1) and our own algebra:
-// with d = to - from and
-// s = from - a, Moller and Trumbore's triple products all have s x d in them, and det needs no edge at all:
+// with d = to - from and s = from - a, Moller and Trumbore's triple products all have s x d in them, and det needs no
+// edge at all:
 //   det = -d . n     u det = E2 . (s x d)     v det = -E1 . (s x d)     t det = s . n
 #pragma once
 
@@ -34,7 +34,8 @@ struct EmbreeStyle {
     }
 
     template <class Number>
-    kernels::Tested<Number> evaluate(const Stored<Number>& t, const kernels::Triple<Number>& from, const kernels::Triple<Number>& to) const {
+    kernels::Tested<Number> evaluate(const Stored<Number>& t, const kernels::Triple<Number>& from,
+                                     const kernels::Triple<Number>& to) const {
         const Number zero{};
         const auto back = from - to;
         const Number det = dot(back, t.normal);

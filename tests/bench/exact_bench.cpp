@@ -52,16 +52,21 @@ void measure_all(const char* what, double offset, Exponents exponents) {
         pairs.push_back(pair);
     }
     const std::size_t n = pairs.size();
-    const double expansions = time_of(n, [&](std::size_t i) { return side_by_expansions(pairs[i].corners, pairs[i].path.from); });
-    const double integers = time_of(n, [&](std::size_t i) { return detail::side_of(pairs[i].corners, pairs[i].path.from); });
-    const double decision = time_of(n, [&](std::size_t i) { return detail::decide(pairs[i].path, pairs[i].corners, Sides::both).hit; });
+    const double expansions =
+        time_of(n, [&](std::size_t i) { return side_by_expansions(pairs[i].corners, pairs[i].path.from); });
+    const double integers =
+        time_of(n, [&](std::size_t i) { return detail::side_of(pairs[i].corners, pairs[i].path.from); });
+    const double decision =
+        time_of(n, [&](std::size_t i) { return detail::decide(pairs[i].path, pairs[i].corners, Sides::both).hit; });
     const double order = time_of(n, [&](std::size_t i) {
         return detail::compare_fractions(pairs[i].path, pairs[i].corners, pairs[(i + 1) % n].corners);
     });
-    const double values = time_of(n, [&](std::size_t i) { return detail::measure(pairs[i].path, pairs[i].corners).fraction * 8; });
-    const double planes = time_of(n, [&](std::size_t i) { return detail::exact_planes(pairs[i].corners).normal[0] * 8; });
-    std::printf("| %-28s | %6.0f | %6.0f | %6.0f | %6.0f | %6.0f | %6.0f |\n", what, expansions, integers, decision, order, values,
-                planes);
+    const double values =
+        time_of(n, [&](std::size_t i) { return detail::measure(pairs[i].path, pairs[i].corners).fraction * 8; });
+    const double planes =
+        time_of(n, [&](std::size_t i) { return detail::exact_planes(pairs[i].corners).normal[0] * 8; });
+    std::printf("| %-28s | %6.0f | %6.0f | %6.0f | %6.0f | %6.0f | %6.0f |\n", what, expansions, integers, decision,
+                order, values, planes);
     std::printf("ratio exact.%s %.2f\n", what, expansions / integers);
 }
 
@@ -69,7 +74,9 @@ void measure_all(const char* what, double offset, Exponents exponents) {
 }  // namespace pierce::test
 
 int main() {
-    std::puts("ns a call: side of a point by expansions and by the exact room; a whole decision; order of two hits; values; planes");
+    std::puts(
+        "ns a call: side of a point by expansions and by the exact room; a whole decision; order of two hits; "
+        "values; planes");
     pierce::test::measure_all<float>("float", 0, pierce::test::Exponents::alike);
     pierce::test::measure_all<float>("float_far", 1e3, pierce::test::Exponents::alike);
     pierce::test::measure_all<double>("double", 0, pierce::test::Exponents::alike);

@@ -1,6 +1,6 @@
 // What certainty costs: how often the exact room is entered on real meshes, and the time of exact first hits over that
-// of their inexact
-// twin. Where the two find different triangles, it says how often. And what each part of an answer costs.
+// of their inexact twin. Where the two find different triangles, it says how often. And what each part of an answer
+// costs.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -55,10 +55,12 @@ Path path_at(const TriangleSoup<Scalar>& soup, const Extent<Scalar>& extent, con
     const Vec3<double> d = set.length * extent.diagonal() * random.direction();
     const std::size_t t = random.below(soup.triangles.size());
     const Vec3<double> w = random.weights();
-    Vec3<double> at = w[0] * corner(soup.view(), t, 0) + w[1] * corner(soup.view(), t, 1) + w[2] * corner(soup.view(), t, 2);
+    Vec3<double> at =
+        w[0] * corner(soup.view(), t, 0) + w[1] * corner(soup.view(), t, 1) + w[2] * corner(soup.view(), t, 2);
     if (set.cloud) at = extent.low + (extent.high - extent.low).cwiseProduct(random.in_cube().cwiseAbs());
     const double before = random.unit();
-    return {to_point(Vec3<Scalar>((at - before * d).template cast<Scalar>())), to_point(Vec3<Scalar>((at + (1 - before) * d).template cast<Scalar>()))};
+    return {to_point(Vec3<Scalar>((at - before * d).template cast<Scalar>())),
+            to_point(Vec3<Scalar>((at + (1 - before) * d).template cast<Scalar>()))};
 }
 
 // Of this thread alone: what others do on the machine meanwhile is not to be counted.
@@ -69,7 +71,8 @@ double nanoseconds() {
 }
 
 template <class Kernel, class Scalar>
-double pass(const Scene<Scalar>& scene, const std::vector<Path>& paths, QueryCounters& counters, std::vector<std::uint32_t>& found) {
+double pass(const Scene<Scalar>& scene, const std::vector<Path>& paths, QueryCounters& counters,
+            std::vector<std::uint32_t>& found) {
     const double start = nanoseconds();
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const std::optional<Hit<Scalar>> hit = first_answer<Kernel, Scalar>(scene, paths[i], {}, counters);
@@ -107,9 +110,10 @@ void measure_mesh(const char* scalar, std::string_view name, std::vector<double>
             hits += exact[i] != ~0U ? 1U : 0U;
             different += exact[i] != trusting[i] ? 1U : 0U;
         }
-        std::printf("| %-12s | %-6s | %-6s | %3.0f %% | %7.0f | %5.2f | %9.2e | %6.3f | %6.3f | %zu |\n", std::string(name).c_str(), scalar, set.name,
-                    100.0 * double(hits) / double(paths.size()), best, 1 / quotients[3],
-                    double(counters.exact_decisions) / double(counters.triangles), double(counters.exact_values) / double(paths.size()),
+        std::printf("| %-12s | %-6s | %-6s | %3.0f %% | %7.0f | %5.2f | %9.2e | %6.3f | %6.3f | %zu |\n",
+                    std::string(name).c_str(), scalar, set.name, 100.0 * double(hits) / double(paths.size()), best,
+                    1 / quotients[3], double(counters.exact_decisions) / double(counters.triangles),
+                    double(counters.exact_values) / double(paths.size()),
                     double(counters.exact_sides) / double(paths.size()), different);
         ratios.push_back(quotients[3]);
         all.queries += paths.size();
@@ -156,8 +160,8 @@ struct FreeWays {
 };
 
 template <Until until, class Scalar>
-void answer_until(const Scene<Scalar>& scene, const Path& path, const std::vector<TriangleRef>& triangles, const QueryOptions& options,
-                  QueryCounters& counters, Hit<Scalar>& hit) {
+void answer_until(const Scene<Scalar>& scene, const Path& path, const std::vector<TriangleRef>& triangles,
+                  const QueryOptions& options, QueryCounters& counters, Hit<Scalar>& hit) {
     First<Scalar> first(scene, path, counters);
     for (const TriangleRef triangle : triangles) {
         test_triangle<Certified>(scene, path, triangle, options, 1, counters, first);
@@ -206,7 +210,8 @@ void measure_parts(const char* scalar, std::string_view name) {
             double& best = least[static_cast<std::size_t>(until)].back();
             const double start = nanoseconds();
             for (int again = 0; again < 5; ++again)
-                for (std::size_t i = begin; i < begin + k_chunk; ++i) answer_until<until>(scene, paths[i], lists[i], options, counters, hits[i]);
+                for (std::size_t i = begin; i < begin + k_chunk; ++i)
+                    answer_until<until>(scene, paths[i], lists[i], options, counters, hits[i]);
             best = std::min(best, (nanoseconds() - start) / (5 * k_chunk));
         };
         for (std::vector<double>& of_part : least) of_part.push_back(1e300);
@@ -219,11 +224,12 @@ void measure_parts(const char* scalar, std::string_view name) {
     }
     std::array<double, 4> median{};
     for (std::size_t i = 0; i < 4; ++i) {
-        std::nth_element(least[i].begin(), least[i].begin() + static_cast<std::ptrdiff_t>(least[i].size() / 2), least[i].end());
+        std::nth_element(least[i].begin(), least[i].begin() + static_cast<std::ptrdiff_t>(least[i].size() / 2),
+                         least[i].end());
         median[i] = least[i][least[i].size() / 2];
     }
-    std::printf("| %-12s | %-6s | %6.1f | %6.1f | %6.1f | %6.1f | %6.1f |\n", std::string(name).c_str(), scalar, median[0], median[1] - median[0],
-                median[2] - median[1], median[3] - median[2], median[3]);
+    std::printf("| %-12s | %-6s | %6.1f | %6.1f | %6.1f | %6.1f | %6.1f |\n", std::string(name).c_str(), scalar,
+                median[0], median[1] - median[0], median[2] - median[1], median[3] - median[2], median[3]);
 }
 
 }  // namespace

@@ -56,17 +56,6 @@ Soup shuffled(Soup soup) {
     return out;
 }
 
-/// As an STL file gives them: each triangle with vertices of its own.
-Soup apart(const Soup& soup) {
-    Soup out;
-    for (const IndexTriple& t : soup.triangles) {
-        const auto first = static_cast<std::uint32_t>(out.positions.size());
-        for (const std::uint32_t v : t) out.positions.push_back(soup.positions[v]);
-        out.triangles.push_back({first, first + 1, first + 2});
-    }
-    return out;
-}
-
 /// Two vertices that all triangles share.
 Soup spindle(std::uint32_t count) {
     Soup soup;
@@ -82,8 +71,8 @@ Soup spindle(std::uint32_t count) {
     return soup;
 }
 
-/// Triangles with random corners in a cube, or (flat) in a square: each edge is a border, and passes among many
-/// others' ends.
+/// Triangles with random corners in a cube, or (flat) in a square: each edge is a border, and passes among many others'
+/// ends.
 Soup random_triangles(std::uint32_t count, bool flat) {
     test::Random random(4);
     Soup soup;
@@ -111,7 +100,7 @@ std::vector<Row> rows(const std::filesystem::path& folder) {
         {"sphere_10k", [=] { return sphere(36); }},
         {"sphere_1M", [=] { return sphere(354); }},
         {"sphere_1M_shuffled", [=] { return shuffled(sphere(354)); }},
-        {"sphere_1M_apart", [=] { return apart(sphere(354)); }},
+        {"sphere_1M_apart", [=] { return test::apart(sphere(354)); }},
         {"polycube_380k", [] { return in_float(test::polycube(50, 0.5, 1, 1)); }},
         {"spindle_200k", [] { return spindle(100'000); }},
         {"random_1k", n(1000)},

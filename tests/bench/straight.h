@@ -8,8 +8,12 @@ namespace pierce::bench {
 struct Straight {
     struct Truth {
         bool value;
-        friend Truth operator&(Truth x, Truth y) { return {static_cast<bool>(static_cast<int>(x.value) & static_cast<int>(y.value))}; }
-        friend Truth operator|(Truth x, Truth y) { return {static_cast<bool>(static_cast<int>(x.value) | static_cast<int>(y.value))}; }
+        friend Truth operator&(Truth x, Truth y) {
+            return {static_cast<bool>(static_cast<int>(x.value) & static_cast<int>(y.value))};
+        }
+        friend Truth operator|(Truth x, Truth y) {
+            return {static_cast<bool>(static_cast<int>(x.value) | static_cast<int>(y.value))};
+        }
         friend constexpr bool none(Truth) { return false; }
     };
     float value = 0;

@@ -34,8 +34,8 @@ bool agree(const Times& times, const Pairs& pairs) {
         const Sums& mt = times.at("moller_trumbore").sums;
         const double n = static_cast<double>(pairs.size());
         const double missed = std::abs(static_cast<double>(s.hits) - static_cast<double>(pairs.hits));
-        const bool same = missed <= 1e-5 * n && std::abs(s.fraction - mt.fraction) <= 1e-4 * n && std::abs(s.u - mt.u) <= 1e-4 * n &&
-                          std::abs(s.v - mt.v) <= 1e-4 * n;
+        const bool same = missed <= 1e-5 * n && std::abs(s.fraction - mt.fraction) <= 1e-4 * n &&
+                          std::abs(s.u - mt.u) <= 1e-4 * n && std::abs(s.v - mt.v) <= 1e-4 * n;
         if (!same) std::printf("%s answers differently: %zu hits of %zu\n", name.c_str(), s.hits, pairs.hits);
         good = good && same;
     }
@@ -53,7 +53,8 @@ struct Options {
 
 /// What the paper has for the kernel: of Moller and Trumbore's time, and of Embree's. Empty for those that it has not.
 std::string published(const Published& p, const std::string& name) {
-    if (name == "baldwin_weber_12" || name == "bw12_in_one_go") return std::to_string(p.twelve_mt) + " | " + std::to_string(p.twelve_embree);
+    if (name == "baldwin_weber_12" || name == "bw12_in_one_go")
+        return std::to_string(p.twelve_mt) + " | " + std::to_string(p.twelve_embree);
     if (name == "baldwin_weber_9") return std::to_string(p.nine_mt) + " | " + std::to_string(p.nine_embree);
     return " | ";
 }
@@ -67,28 +68,36 @@ bool cell(const Published& p, Misses misses, Options& options) {
     const Pairs pairs = make_pairs(count, p.rate, misses);
     const Times scalar = run(scalar_contest(pairs), count, options.repetitions);
     const Times wide = run(wide_contest(pairs), count, options.repetitions);
-    std::printf("\n%zu pairs, misses %s, hit rate %.1f asked, %.4f counted; theirs: Baldwin and Weber 2016, Table 1\n", count,
-                heading(misses).c_str(), p.rate, double(pairs.hits) / double(count));
-    std::printf("| %-16s | %7s | theirs, %% of M-T | theirs, %% of Embree | %8s | %9s | %12s | %7s | %11s | %14s | %16s |\n", "kernel", "ns", "% of M-T",
-                "% of Emb.", "% of M-T - d", "wide ns", "% wide M-T", "% wide Embree", "% of scalar M-T");
+    std::printf("\n%zu pairs, misses %s, hit rate %.1f asked, %.4f counted; theirs: Baldwin and Weber 2016, Table 1\n",
+                count, heading(misses).c_str(), p.rate, double(pairs.hits) / double(count));
+    std::printf(
+        "| %-16s | %7s | theirs, %% of M-T | theirs, %% of Embree | %8s | %9s | %12s | %7s | %11s | %14s | %16s |\n",
+        "kernel", "ns", "% of M-T", "% of Emb.", "% of M-T - d", "wide ns", "% wide M-T", "% wide Embree",
+        "% of scalar M-T");
     std::printf("|---|---|---|---|---|---|---|---|---|---|---|\n");
     const double dummy = scalar.at("dummy").median();
     for (const auto& [name, timed] : scalar) {
-        std::printf("| %-16s | %7.2f | %s | %8.0f | %9.0f | %12.0f |", name.c_str(), timed.median(), published(p, name).c_str(), percent(scalar, name, "moller_trumbore"),
+        std::printf("| %-16s | %7.2f | %s | %8.0f | %9.0f | %12.0f |", name.c_str(), timed.median(),
+                    published(p, name).c_str(), percent(scalar, name, "moller_trumbore"),
                     percent(scalar, name, "embree_style"), percent(scalar, name, "moller_trumbore", dummy));
         const bool has_wide = wide.contains(name);
         if (has_wide)
-            std::printf(" %7.2f | %11.0f | %14.0f | %16.0f |\n", wide.at(name).median(), percent(wide, name, "moller_trumbore"),
-                        percent(wide, name, "embree_style"), 100 * wide.at(name).median() / scalar.at("moller_trumbore").median());
+            std::printf(" %7.2f | %11.0f | %14.0f | %16.0f |\n", wide.at(name).median(),
+                        percent(wide, name, "moller_trumbore"), percent(wide, name, "embree_style"),
+                        100 * wide.at(name).median() / scalar.at("moller_trumbore").median());
         else
             std::printf(" %7s | %11s | %14s | %16s |\n", "-", "-", "-", "-");
         if (name == "dummy") continue;
-        options.csv << heading(misses) << ' ' << count << ' ' << p.rate << ' ' << name << ' ' << percent(scalar, name, "moller_trumbore") << ' '
+        options.csv << heading(misses) << ' ' << count << ' ' << p.rate << ' ' << name << ' '
+                    << percent(scalar, name, "moller_trumbore") << ' '
                     << (has_wide ? percent(wide, name, "moller_trumbore") : 0) << ' '
-                    << (has_wide ? 100 * wide.at(name).median() / scalar.at("moller_trumbore").median() : 0) << ' ' << p.twelve_mt << ' '
-                    << p.nine_mt << '\n';
-        options.ratios["table1_" + heading(misses) + "_scalar_" + name].push_back(100 / percent(scalar, name, "moller_trumbore"));
-        if (has_wide) options.ratios["table1_" + heading(misses) + "_wide_" + name].push_back(100 / percent(wide, name, "moller_trumbore"));
+                    << (has_wide ? 100 * wide.at(name).median() / scalar.at("moller_trumbore").median() : 0) << ' '
+                    << p.twelve_mt << ' ' << p.nine_mt << '\n';
+        options.ratios["table1_" + heading(misses) + "_scalar_" + name].push_back(
+            100 / percent(scalar, name, "moller_trumbore"));
+        if (has_wide)
+            options.ratios["table1_" + heading(misses) + "_wide_" + name].push_back(
+                100 / percent(wide, name, "moller_trumbore"));
     }
     std::fflush(stdout);
     return agree(scalar, pairs) && (wide.empty() || agree(wide, pairs));

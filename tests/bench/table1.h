@@ -1,6 +1,5 @@
 // The experiment of Baldwin and Weber 2016, Table 1: pairs of a segment and its own triangle, in given numbers and with
-// given shares of hits,
-// tested by each kernel in turn.
+// given shares of hits, tested by each kernel in turn.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +16,7 @@
 namespace pierce::bench {
 
 /// How the segments that miss do so: they pierce the plane beside the triangle, from its front; or they lie anywhere in
-/// the cube of the
-/// triangles, and miss however they may (four in five do not pierce the plane in the right sense).
+/// the cube of the triangles, and miss however they may (four in five do not pierce the plane in the right sense).
 enum class Misses { beside, anywhere };
 
 struct Pairs {

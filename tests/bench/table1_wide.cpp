@@ -38,7 +38,8 @@ struct Segments {
 };
 
 template <class Kernel>
-void enter(Contest& contest, const std::string& name, const Kernel& kernel, const Pairs& pairs, const std::shared_ptr<Segments>& segments) {
+void enter(Contest& contest, const std::string& name, const Kernel& kernel, const Pairs& pairs,
+           const std::shared_ptr<Segments>& segments) {
     using Narrow = typename Kernel::template Stored<float>;
     using Broad = typename Kernel::template Stored<Number>;
     auto stored = std::make_shared<std::vector<Broad>>(in_blocks<Broad, Narrow>(pairs.size(), [&](std::size_t i) {
@@ -97,8 +98,8 @@ Contest wide_contest(const Pairs& pairs) {
     enter(contest, "mcguire", kernels::McGuire{.epsilon = 0}, pairs, segments);
     enter(contest, "watertight", kernels::Watertight{}, pairs, segments);
     // No fan: it stores several triangles, and what pays for that, the turn from one to the next, is not there with
-    // one; a wide fan of n would
-    // also need pairs whose eight fans all have n triangles. With one it would be another Baldwin-Weber of 12 numbers.
+    // one; a wide fan of n would also need pairs whose eight fans all have n triangles. With one it would be another
+    // Baldwin-Weber of 12 numbers.
     return contest;
 }
 

@@ -39,7 +39,8 @@ void check(const Pair& pair, Sides sides, bool truth, Tally& tally) {
     ASSERT_EQ(filtered.decision.feature, decision.feature) << describe(pair);
     ASSERT_EQ(filtered.decision.at_start, decision.at_start) << describe(pair);
     ASSERT_TRUE(detail::fraction_at_most(pair.path, pair.corners, filtered.latest)) << describe(pair);
-    ASSERT_FALSE(detail::fraction_at_most(pair.path, pair.corners, std::nextafter(filtered.earliest, -1))) << describe(pair);
+    ASSERT_FALSE(detail::fraction_at_most(pair.path, pair.corners, std::nextafter(filtered.earliest, -1)))
+        << describe(pair);
 }
 
 constexpr std::array<double, 3> k_offsets = {0, 1e3, 1e6};

@@ -1,6 +1,6 @@
 // The exact room for coordinates whose exponents have nothing to do with one another, against rational numbers:
-// subnormal, huge and ordinary ones in
-// one triangle. The other tests scale all coordinates alike and never leave the integers of a fixed width.
+// subnormal, huge and ordinary ones in one triangle. The other tests scale all coordinates alike and never leave the
+// integers of a fixed width.
 #include <gtest/gtest.h>
 #include <exact/crossing.h>
 #include <exact/fraction.h>
@@ -63,7 +63,8 @@ void check_values(const Pair& pair, const RationalOracle& exact, Random& random,
     if (values.fraction > 1e-300) worst = std::max(worst, ulps(values.fraction, exact.fraction()));
     for (std::size_t k = 0; k < 3; ++k)
         if (values.barycentric[k] > 1e-300) worst = std::max(worst, ulps(values.barycentric[k], exact.weight(k)));
-    for (const double limit : {values.fraction, std::nextafter(values.fraction, 0.0), std::nextafter(values.fraction, 1.0), random.unit()})
+    for (const double limit :
+         {values.fraction, std::nextafter(values.fraction, 0.0), std::nextafter(values.fraction, 1.0), random.unit()})
         ASSERT_EQ(fraction_at_most(path, corners, limit), Q(limit) >= exact.fraction());
     // Of one that shares its edge, as it is or with its third corner moved.
     Corners other = {corners[1], corners[0], corners[2]};
@@ -91,8 +92,8 @@ TEST(Exponents, of_any_spread_give_exact_answers) {
             const int crossed = crossing(path, corners);
             ASSERT_EQ(crossing({path.to, path.from}, corners), -crossed) << i;
             ASSERT_EQ(crossing(path, {corners[0], corners[2], corners[1]}), -crossed) << i;
-            const bool generic = exact.from_side() != 0 && exact.to_side() != 0 && exact.weight(0) != 0 && exact.weight(1) != 0 &&
-                                 exact.weight(2) != 0;
+            const bool generic = exact.from_side() != 0 && exact.to_side() != 0 && exact.weight(0) != 0 &&
+                                 exact.weight(1) != 0 && exact.weight(2) != 0;
             if (generic) {
                 ASSERT_EQ(crossed, !exact.hit(Sides::both) ? 0 : exact.from_side() > 0 ? 1 : -1) << i;
             }

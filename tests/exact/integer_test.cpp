@@ -97,7 +97,8 @@ TEST(Lattice, holds_every_double_exactly) {
     EXPECT_EQ(to_gmp(on_lattice<33>(denormal, lattice)), 1);
     EXPECT_EQ(to_gmp(on_lattice<33>(-largest, lattice)), -mpz_class(mpq_class(largest) / mpq_class(denormal)));
     EXPECT_TRUE(on_lattice<33>(-0.0, lattice).zero());
-    EXPECT_EQ(with_limbs(lattice.bits(), [](auto n) { return int{n}; }, [] { return 0; }), 0) << "too wide for a fixed width";
+    const auto width = [](auto n) { return int{n}; };
+    EXPECT_EQ(with_limbs(lattice.bits(), width, [] { return 0; }), 0) << "too wide for a fixed width";
 
     Random random(6);
     for (int i = 0; i < 10'000; ++i) {

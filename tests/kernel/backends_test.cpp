@@ -210,12 +210,13 @@ void refuse(const Backend& backend, std::int64_t decisions, int lowest_power, in
             const double kind = random.unit();
             if (kind < 0.1) power = random.between_ints(lowest_power, lowest_power + 60);
             else if (kind < 0.2) power = random.between_ints(highest_power - 30, highest_power);
-            else if (kind < 0.3) power = random.between_ints(-60, -30);  // where volumes of floats underflow, not lengths
+            else if (kind < 0.3) power = random.between_ints(-60, -30);  // floats' volumes underflow, not lengths
             judge.judge(family, power, random.chance(0.6) ? 0 : random.chance(0.5) ? 1e2 : 1e6);
         }
     };
     std::vector<std::thread> threads;
-    for (unsigned i = 0; i < std::max(1U, std::thread::hardware_concurrency()); ++i) threads.emplace_back(work, 1000 + i);
+    for (unsigned i = 0; i < std::max(1U, std::thread::hardware_concurrency()); ++i)
+        threads.emplace_back(work, 1000 + i);
     for (std::thread& thread : threads) thread.join();
     std::cout << tally.decisions << " decisions, " << tally.hits << " hits, " << tally.refused << " refused; "
               << tally.way_hits << " hits of ways, " << tally.new_way_hits << " beside a segment that has none\n";

@@ -12,8 +12,10 @@ constexpr double v = 0x1p-53;
 
 // A number within 2^power, its low part within j v 2^power, both as large as that or much smaller.
 DoubleDouble number(int power, int j, Random& random) {
-    const double high = std::ldexp(random.between(-1, 1), random.chance(0.2) ? power - random.between_ints(0, 60) : power);
-    const double low = std::ldexp(random.between(-j * v, j * v), random.chance(0.2) ? power - random.between_ints(0, 40) : power);
+    const double high =
+        std::ldexp(random.between(-1, 1), random.chance(0.2) ? power - random.between_ints(0, 60) : power);
+    const double low =
+        std::ldexp(random.between(-j * v, j * v), random.chance(0.2) ? power - random.between_ints(0, 40) : power);
     return {high, low};
 }
 
@@ -44,7 +46,8 @@ std::array<Worst, 2> worst_of_operations(int pairs, int around) {
 
         const int most = std::max(j, k);
         const DoubleDouble s = random.chance(0.5) ? x + y : x - -y;
-        sum.error = std::max(sum.error, error_in((2 * most + 1) * v * v * (size_x + size_y), s, exact_x + exact_y, k_unit));
+        sum.error =
+            std::max(sum.error, error_in((2 * most + 1) * v * v * (size_x + size_y), s, exact_x + exact_y, k_unit));
         sum.low = std::max(sum.low, std::abs(s.low) / ((most + 1) * v * (size_x + size_y)));
 
         const DoubleDouble p = x * y;
@@ -103,7 +106,8 @@ TEST(DoubleDouble, quotients_lose_no_more_than_is_said) {
     for (int i = 0; i < 300'000; ++i) {
         // High parts that cancelled: the low one is up to a thousandth of it.
         const auto cancelled = [&] {
-            const double high = (random.chance(0.5) ? 1 : -1) * std::ldexp(random.between(0.5, 1), random.between_ints(-200, 200));
+            const double high =
+                (random.chance(0.5) ? 1 : -1) * std::ldexp(random.between(0.5, 1), random.between_ints(-200, 200));
             return DoubleDouble{high, high * random.between(-1, 1) * std::ldexp(1, -random.between_ints(10, 60))};
         };
         const DoubleDouble x = cancelled();

@@ -1,6 +1,5 @@
 // The filter is never wrong when it is certain: a million decisions against exact rational arithmetic, and a hundred
-// million in the
-// slow run. Both scalar types; all sizes from the smallest to the largest numbers there are.
+// million in the slow run. Both scalar types; all sizes from the smallest to the largest numbers there are.
 #include <atomic>
 #include <thread>
 
@@ -60,19 +59,21 @@ void judge(Family family, int power, double offset, Random& random, GmpOracle& o
             const Filtered filtered = filter(measured, sides);
             const Verdict strict = filter_strictly(measured, sides).verdict;
             // What it says strictly it says of the closed rule too; what is a hit lies in the face.
-            if (strict != Verdict::doubtful && (strict != filtered.verdict || (strict == Verdict::hit && right.feature != Feature::face)))
+            if (strict != Verdict::doubtful &&
+                (strict != filtered.verdict || (strict == Verdict::hit && right.feature != Feature::face)))
                 ADD_FAILURE() << "strictly: " << describe(pair);
             const auto judge_verdict = [&](const char* who, const Filtered& said) {
                 const Decision& d = said.decision;
                 if ((said.verdict == Verdict::hit) != right.hit ||
-                    (right.hit && (d.side != right.side || d.feature != right.feature || d.feature_index != right.feature_index ||
-                                   d.at_start != right.at_start))) {
+                    (right.hit && (d.side != right.side || d.feature != right.feature ||
+                                   d.feature_index != right.feature_index || d.at_start != right.at_start))) {
                     ++tally.wrong;
                     ADD_FAILURE() << who << ": " << describe(pair);
                 }
                 if (!right.hit) return;
                 if (!fraction_at_most(pair.path, pair.corners, std::min(1.0, said.latest)) ||
-                    (said.earliest > 0 && fraction_at_most(pair.path, pair.corners, std::nextafter(said.earliest, 0)))) {
+                    (said.earliest > 0 &&
+                     fraction_at_most(pair.path, pair.corners, std::nextafter(said.earliest, 0)))) {
                     ++tally.wrong;
                     ADD_FAILURE() << who << "'s interval: " << describe(pair);
                 }
@@ -104,8 +105,7 @@ void run(std::int64_t decisions, int lowest_power, int highest_power) {
         for (std::int64_t i = 0; i < share && tally.wrong == 0; i += 4) {
             const auto family = static_cast<Family>(random.below(k_family_names.size()));
             // The size of everyday coordinates; any size that the filter works in, and those where its products become
-            // denormal or
-            // overflow; and both ends of the range.
+            // denormal or overflow; and both ends of the range.
             int power = random.between_ints(-20, 20);
             const double kind = random.unit();
             if (kind < 0.3) power = random.between_ints(std::max(lowest_power, -380), std::min(highest_power, 360));
@@ -120,8 +120,9 @@ void run(std::int64_t decisions, int lowest_power, int highest_power) {
     std::vector<std::thread> threads;
     for (unsigned i = 0; i < count; ++i) threads.emplace_back(work, 1000 + i, decisions / count * 3 / 2);
     for (std::thread& thread : threads) thread.join();
-    std::cout << tally.decisions << " decisions, " << tally.hits << " hits, " << tally.certain << " certain of three sides each, "
-              << tally.touching << " of them with volumes of 0, " << tally.settled << " settled by the finer filter, " << tally.wrong << " wrong\n";
+    std::cout << tally.decisions << " decisions, " << tally.hits << " hits, " << tally.certain
+              << " certain of three sides each, " << tally.touching << " of them with volumes of 0, " << tally.settled
+              << " settled by the finer filter, " << tally.wrong << " wrong\n";
     EXPECT_EQ(tally.wrong, 0);
     EXPECT_GE(tally.decisions, decisions);
     EXPECT_GT(tally.hits, tally.decisions / 20);
@@ -167,14 +168,16 @@ TEST(Filter, is_in_doubt_where_it_can_t_tell_and_knows_zeros_along_axes) {
     EXPECT_EQ(verdict({4, 0, 0}, {4, 0, 0}), Verdict::miss);  // both ends on a corner
     // Oblique ones.
     const Corners oblique = {Point{0, 0, 0}, {4, 1, 2}, {1, 4, 3}};
-    EXPECT_EQ(filtered(oblique, {1.25, 1.25, 1.25}, {1.25, 1.25, -1}).verdict, Verdict::doubtful) << "starts on the plane";
+    EXPECT_EQ(filtered(oblique, {1.25, 1.25, 1.25}, {1.25, 1.25, -1}).verdict, Verdict::doubtful)
+        << "starts on the plane";
     EXPECT_EQ(filtered(oblique, {2, 0.5, 3}, {2, 0.5, -1}).verdict, Verdict::doubtful);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(verdict({nan, 1, 1}, {1, 1, -1}), Verdict::doubtful);
     EXPECT_EQ(verdict({1, 1, 1}, {1, 1, -1e100}), Verdict::doubtful);
     EXPECT_EQ(verdict({1, 1, 1}, {1, std::numeric_limits<double>::infinity(), -1}), Verdict::doubtful);
     EXPECT_EQ(verdict({1, 1, 0x1p-60}, {1, 1, -1}), Verdict::hit) << "along axes nothing is too close";
-    EXPECT_EQ(filtered(oblique, {2.5, 2.5, 2.5 + 0x1p-51}, {2.5, 2.5, 1}).verdict, Verdict::doubtful) << "too close to the plane to be certain";
+    EXPECT_EQ(filtered(oblique, {2.5, 2.5, 2.5 + 0x1p-51}, {2.5, 2.5, 1}).verdict, Verdict::doubtful)
+        << "too close to the plane to be certain";
 }
 
 }  // namespace

@@ -27,7 +27,9 @@ struct Exact {
         const auto cross = [](const Vector& x, const Vector& y) {
             return Vector{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
         };
-        const auto dot = [](const Vector& x, const Vector& y) { return mpz_class(x[0] * y[0] + x[1] * y[1] + x[2] * y[2]); };
+        const auto dot = [](const Vector& x, const Vector& y) {
+            return mpz_class(x[0] * y[0] + x[1] * y[1] + x[2] * y[2]);
+        };
         const Vector a = minus(corners[0], path.from);
         const Vector b = minus(corners[1], path.from);
         const Vector c = minus(corners[2], path.from);
@@ -79,7 +81,8 @@ void judge(const test::Pair& pair, double tolerance, Tally& tally) {
     check("w_c", -lane(meeting.vc, 1), exact.w[2], 9 * u * measured.bar_vc[1], 3 * k_unit);
     const auto a = lane(meeting.sb, 0) - lane(meeting.sb, 1) - -lane(meeting.vc, 1);
     check("w_a", a, exact.w[0], 12 * u * (measured.bar_sb[0] + measured.bar_sb[1] + measured.bar_vc[1]), 3 * k_unit);
-    check("v - s", lane(meeting.vc, 0) - lane(meeting.sb, 0), exact.v - exact.s, 10 * u * (measured.bar_sb[0] + measured.bar_vc[0]), 3 * k_unit);
+    check("v - s", lane(meeting.vc, 0) - lane(meeting.sb, 0), exact.v - exact.s,
+          10 * u * (measured.bar_sb[0] + measured.bar_vc[0]), 3 * k_unit);
 
     Values values;
     evaluate<double, TwoPairs>(measured, meeting, 1, values);
@@ -94,7 +97,8 @@ void judge(const test::Pair& pair, double tolerance, Tally& tally) {
     // |x - y / s| <= e is |x s - y| <= e |s|, and a rounding of x, which is at most 1.
     const auto near = [&](const char* what, double x, const mpz_class& y, double bound) {
         const mpz_class error = abs(whole(x, k_unit) * exact.s - (y << k_unit));
-        const double parts = mpq_class(error, whole(bound + (u < 0x1p-60 ? 0x1p-53 * x + 0x1p-1074 : 0), k_unit) * abs(exact.s)).get_d();
+        const double parts =
+            mpq_class(error, whole(bound + (u < 0x1p-60 ? 0x1p-53 * x + 0x1p-1074 : 0), k_unit) * abs(exact.s)).get_d();
         tally.value = std::max(tally.value, parts);
         EXPECT_LE(parts, 1 + 0x1p-20) << what << ": " << describe(pair);
     };
@@ -117,7 +121,9 @@ void judge(const test::Pair& pair, double tolerance, Tally& tally) {
 test::Pair pair_of(Random& random) {
     const auto family = static_cast<Family>(random.below(k_family_names.size()));
     test::Pair pair = make_pair_of<double>(family, 1, random.chance(0.5) ? 0 : std::exp(random.between(0, 14)), random);
-    const int power = random.chance(0.7) ? 0 : random.chance(0.5) ? random.between_ints(-201, -100) : random.between_ints(100, 201);
+    const int power = random.chance(0.7)   ? 0
+                      : random.chance(0.5) ? random.between_ints(-201, -100)
+                                           : random.between_ints(100, 201);
     const std::size_t axis = random.below(3);
     const int squeezed = power - (random.chance(0.2) ? random.between_ints(0, 220) : 0);
     const bool flat = random.chance(0.1);
@@ -133,8 +139,9 @@ Tally tally_of(int count, double tolerance) {
     Random random(10);
     Tally tally;
     for (int i = 0; i < count; ++i) judge<Number>(pair_of(random), tolerance, tally);
-    std::cout << tally.pairs << " pairs, " << tally.tame << " in range, " << tally.zeros << " bars of 0, values of " << tally.values
-              << " hits good enough; in parts of bounds: volumes " << tally.volume << ", values " << tally.value << ", places " << tally.place << '\n';
+    std::cout << tally.pairs << " pairs, " << tally.tame << " in range, " << tally.zeros << " bars of 0, values of "
+              << tally.values << " hits good enough; in parts of bounds: volumes " << tally.volume << ", values "
+              << tally.value << ", places " << tally.place << '\n';
     EXPECT_GT(tally.tame, count / 2);
     EXPECT_LT(tally.tame, count);
     EXPECT_GT(tally.zeros, count / 20);

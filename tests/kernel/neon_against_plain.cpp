@@ -58,7 +58,8 @@ int test_cluster_differs() {
         if (!probes.one) continue;
         const float limit = round % 2 == 0 ? 1 : static_cast<float>(between(0, 1));
         const unsigned found = k_neon.of<Scalar>().test_cluster(probes.neon, records, cluster_ref(0, count), limit);
-        const unsigned expected = k_plain.of<Scalar>().test_cluster(probes.plain, records, cluster_ref(0, count), limit);
+        const unsigned expected =
+            k_plain.of<Scalar>().test_cluster(probes.plain, records, cluster_ref(0, count), limit);
         if (found >> count != 0) return 1;
         left += __builtin_popcount(found);
         refused += static_cast<int>(count) - __builtin_popcount(found);

@@ -147,7 +147,8 @@ void expect_complete(const ScalarKernels<Scalar>& kernels, const World<Scalar>& 
             ++a.visits;
             Q enter;
             const std::size_t i = first_of(cluster);
-            if (a.nearest && i < a.world->boxes.size() && touches(*a.path, a.world->boxes[i], a.world->frame.noise, enter))
+            if (a.nearest && i < a.world->boxes.size() &&
+                touches(*a.path, a.world->boxes[i], a.world->frame.noise, enter))
                 a.limit = std::min(a.limit, parameter(*a.probe, std::nextafter(CGAL::to_double(enter), 2)));
             return a.limit;
         };

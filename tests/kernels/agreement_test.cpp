@@ -1,27 +1,19 @@
 // Each kernel against the exact one, on generic pairs: they differ only where the pair lies within the kernel's error
-// of a boundary of the
-// decision, and values are right within the same error.
+// of a boundary of the decision, and values are right within the same error.
 //
 // The error. u is the unit of rounding (2^-24, 2^-53). A height over the plane is a sum of products of coordinates, at
-// most S in size, with
-// a unit normal. The normal is a cross product of edges: each component is off by a few u times the product of the two
-// longest edges, that
-// is by u A of its length, where A is the longest edge over the smallest altitude. So a height is off by at most K u S
-// A. Where the line meets
-// the plane it is off by that times G, one over the cosine between segment and normal, along the segment. A weight
-// changes by 1 over the
-// altitude h for each unit of length in the plane; its own coefficients are off by K u A of their size. So a weight is
-// off by at most
+// most S in size, with a unit normal. The normal is a cross product of edges: each component is off by a few u times
+// the product of the two longest edges, that is by u A of its length, where A is the longest edge over the smallest
+// altitude. So a height is off by at most K u S A. Where the line meets the plane it is off by that times G, one over
+// the cosine between segment and normal, along the segment. A weight changes by 1 over the altitude h for each unit of
+// length in the plane; its own coefficients are off by K u A of their size. So a weight is off by at most
 // K u S A G / h, and a fraction by K u S A G / length. S is the distance between the points where differences of
-// coordinates come first,
-// and that from the origin for kernels whose planes are evaluated there. K counts the roundings in the longest chain:
-// at most 4 for an edge
-// and a cross product, 4 for the scale, 3 for the offset, 4 for a value, 4 for the combination of two ends: about 20,
-// were
-// all of one sign and size. They are not; the test is run with 8, and the largest that is seen is below half of that.
-// `triangle_fan` multiplies by the normal once more: on other pairs (good triangles of size 1 far from the origin) up
-// to 1.43 of this band
-// has been seen from it. Its own, for fans of several triangles too, is in fan_agreement_test.cpp.
+// coordinates come first, and that from the origin for kernels whose planes are evaluated there. K counts the roundings
+// in the longest chain: at most 4 for an edge and a cross product, 4 for the scale, 3 for the offset, 4 for a value, 4
+// for the combination of two ends: about 20, were all of one sign and size. They are not; the test is run with 8, and
+// the largest that is seen is below half of that. `triangle_fan` multiplies by the normal once more: on other pairs
+// (good triangles of size 1 far from the origin) up to 1.43 of this band has been seen from it. Its own, for fans of
+// several triangles too, is in fan_agreement_test.cpp.
 #include <cstdio>
 #include <limits>
 #include <map>
@@ -65,8 +57,7 @@ void judge(const char* name, const Kernel& kernel, const std::array<Vec3<Scalar>
     } else if (answer || truth) {
         ++tally.different;
         // How far inside the pair is by each condition, in bands; outside is negative. A hit is lost where one of them
-        // is small; a miss
-        // becomes a hit where all those that fail do so by little.
+        // is small; a miss becomes a hit where all those that fail do so by little.
         const std::array<long double, 5> inside = {m.height_from / height_band, -m.height_to / height_band,
                                                    m.weight[0] * m.altitude / shift, m.weight[1] * m.altitude / shift,
                                                    m.weight[2] * m.altitude / shift};
@@ -80,8 +71,7 @@ void judge(const char* name, const Kernel& kernel, const std::array<Vec3<Scalar>
 }
 
 /// Triangles of all shapes in the unit cube; seven in ten segments aimed from the front at a point of the triangle, or
-/// of its edge bc; the
-/// others anywhere.
+/// of its edge bc; the others anywhere.
 template <class Scalar>
 void pairs_at(double scale, double offset, bool at_edges, int count, std::map<std::string, Tally>& tallies,
               std::uint64_t seed) {

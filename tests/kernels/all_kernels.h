@@ -28,8 +28,9 @@ void for_each_kernel(Function&& f) {
 
 template <class... Kernels>
 constexpr bool k_all_are_kernels = (... && (kernels::Kernel<Kernels, float> && kernels::Kernel<Kernels, double>));
-static_assert(k_all_are_kernels<kernels::Bloom, kernels::BaldwinWeber12, kernels::BaldwinWeber9, kernels::MollerTrumbore, kernels::Cramer,
-                                kernels::McGuire, kernels::TriangleFan, kernels::Watertight, kernels::Exact>);
+static_assert(
+    k_all_are_kernels<kernels::Bloom, kernels::BaldwinWeber12, kernels::BaldwinWeber9, kernels::MollerTrumbore,
+                      kernels::Cramer, kernels::McGuire, kernels::TriangleFan, kernels::Watertight, kernels::Exact>);
 
 template <class Scalar>
 Vec3<Scalar> vec(const detail::Point& p) {
@@ -37,7 +38,8 @@ Vec3<Scalar> vec(const detail::Point& p) {
 }
 
 template <class Kernel, class Scalar>
-auto tested(const Kernel& kernel, const std::array<Vec3<Scalar>, 3>& t, const Vec3<Scalar>& from, const Vec3<Scalar>& to) {
+auto tested(const Kernel& kernel, const std::array<Vec3<Scalar>, 3>& t, const Vec3<Scalar>& from,
+            const Vec3<Scalar>& to) {
     return kernel.test(kernel.prepare(t[0], t[1], t[2]), from, to);
 }
 

@@ -20,10 +20,18 @@ struct Counted {
     Counted() = default;
     explicit Counted(double x) : value(x) {}
 
-    friend Counted operator+(const Counted& x, const Counted& y) { return ++counts.additions, Counted(x.value + y.value); }
-    friend Counted operator-(const Counted& x, const Counted& y) { return ++counts.additions, Counted(x.value - y.value); }
-    friend Counted operator*(const Counted& x, const Counted& y) { return ++counts.multiplications, Counted(x.value * y.value); }
-    friend Counted operator/(const Counted& x, const Counted& y) { return ++counts.divisions, Counted(x.value / y.value); }
+    friend Counted operator+(const Counted& x, const Counted& y) {
+        return ++counts.additions, Counted(x.value + y.value);
+    }
+    friend Counted operator-(const Counted& x, const Counted& y) {
+        return ++counts.additions, Counted(x.value - y.value);
+    }
+    friend Counted operator*(const Counted& x, const Counted& y) {
+        return ++counts.multiplications, Counted(x.value * y.value);
+    }
+    friend Counted operator/(const Counted& x, const Counted& y) {
+        return ++counts.divisions, Counted(x.value / y.value);
+    }
     friend Counted operator-(const Counted& x) { return Counted(-x.value); }
     friend auto operator<=>(const Counted& x, const Counted& y) { return x.value <=> y.value; }
     friend bool operator==(const Counted& x, const Counted& y) = default;

@@ -1,30 +1,25 @@
 // Real fans against the exact kernel over their triangles: they differ only where the pair lies within the fan's error
-// of a boundary of the
-// decision, and values are right within the same error.
+// of a boundary of the decision, and values are right within the same error.
 //
 // The error. u is the unit of rounding (2^-24, 2^-53). Of a point or vector p, let x_j be its coordinates in the basis
-// B_j = (AB, AC, N) of
-// triangle j, x_0 = first map, x_j = M_j x_{j-1}. What step j commits, d_j, is handed on exactly, by the true change of
-// basis B_k^-1 B_j:
+// B_j = (AB, AC, N) of triangle j, x_0 = first map, x_j = M_j x_{j-1}. What step j commits, d_j, is handed on exactly,
+// by the true change of basis B_k^-1 B_j:
 //   error of x_k = sum over j <= k of |B_k^-1 B_j| d_j
-// The first map's rows r come from cross products over N.N. N is off by a few u |AB| |AC|, that is, with A = |AB| |AC|
-// / |N|, one over the sine of
-// the angle at the apex, by a few u A of its length. A row is off by as much of its length:  d_0 = K u A |r| s, where s
-// = |p| + |apex| for the
-// start and |p| for the way back, which has no offset. The six numbers of a turn are triple products over N.N. With
-// sizes in place of products,
-// X = AB and Z = AD, the largest that they can be is
-//   |a| <= |X| |Z| / |N|   |b| <= |AC| |X| / |N|   |c| <= |X| / |N|   |d| <= |N_old| |Z| / |N|   |e| <= |AC| |N_old| / |N|   |f| <= |N_old| / |N|
+// The first map's rows r come from cross products over N.N. N is off by a few u |AB| |AC|, that is, with
+// A = |AB| |AC| / |N|, one over the sine of the angle at the apex, by a few u A of its length. A row is off by as much
+// of its length: d_0 = K u A |r| s, where s = |p| + |apex| for the start and |p| for the way back, which has no offset.
+// The six numbers of a turn are triple products over N.N. With sizes in place of products, X = AB and Z = AD, the
+// largest that they can be is
+//   |a| <= |X| |Z| / |N|       |b| <= |AC| |X| / |N|       |c| <= |X| / |N|
+//   |d| <= |N_old| |Z| / |N|   |e| <= |AC| |N_old| / |N|   |f| <= |N_old| / |N|
 // they are off by a few u A of that, and the sum of their products with x_{j-1} has an error of a few u of the same:
 //   d_j = K u A_j C_j |x_{j-1}|, where C_j are these bounds, and 1 where v is added as it is.
-// The line meets the plane at t = w / b of the start's w and the way's b: off by (dw + t db) / |b| + u. u = u_start - t
-// u_back is then off by
-// du_start + t du_back + |u_back| dt, and u of the coordinates' own size. K counts the roundings in the longest chain
-// of a step: 1 for an
-// edge, 2 for a cross product, twice, 3 for a product of vectors, 3 for N.N and the division, 4 for the sum, a fraction
-// and three more where the
-// last triangle is judged by z: about 20, were all of one sign and size. The test is run with 8; the largest that was
-// seen is half of it (0.50; compilers draw other samples).
+// The line meets the plane at t = w / b of the start's w and the way's b: off by (dw + t db) / |b| + u.
+// u = u_start - t u_back is then off by du_start + t du_back + |u_back| dt, and u of the coordinates' own size. K
+// counts the roundings in the longest chain of a step: 1 for an edge, 2 for a cross product, twice, 3 for a product of
+// vectors, 3 for N.N and the division, 4 for the sum, a fraction and three more where the last triangle is judged by z:
+// about 20, were all of one sign and size. The test is run with 8; the largest that was seen is half of it (0.50;
+// compilers draw other samples).
 #include <cstdio>
 #include <limits>
 #include <map>
@@ -87,8 +82,8 @@ class Bands {
         const V x = start - t * back;
         const V band = start_error + std::abs(t) * back_error + t_band * back.cwiseAbs() + k_unit * start.cwiseAbs();
         const long double end_band = start_error[2] + back_error[2];
-        const long double inside = std::min({start[2] / start_error[2], (back[2] - start[2]) / end_band, x[0] / band[0], x[1] / band[1],
-                                             (1 - x[0] - x[1]) / (band[0] + band[1])});
+        const long double inside = std::min({start[2] / start_error[2], (back[2] - start[2]) / end_band, x[0] / band[0],
+                                             x[1] / band[1], (1 - x[0] - x[1]) / (band[0] + band[1])});
         return {inside, t, x[0], x[1], t_band, band[0], band[1]};
     }
 
@@ -156,21 +151,24 @@ void judge(const RealFan<Scalar>& fan, const Vec3<Scalar>& from, const Vec3<Scal
             continue;
         }
         const auto at = bands.at(k);
-        const long double later = named ? (named->fraction - at.fraction) / (named->fraction_band + at.fraction_band) : at.inside;
+        const long double later =
+            named ? (named->fraction - at.fraction) / (named->fraction_band + at.fraction_band) : at.inside;
         used = std::max(used, std::min(at.inside, later));
     }
     if (answer) {
         EXPECT_TRUE(answer->fraction >= 0 && answer->fraction <= 1 && answer->u >= 0 && answer->v >= 0);
         if (!named_is_hit) used = std::max(used, -named->inside);
-        used = std::max({used, std::abs(answer->fraction - named->fraction) / named->fraction_band,
-                         std::abs(answer->u - named->u) / named->u_band, std::abs(answer->v - named->v) / named->v_band});
+        used =
+            std::max({used, std::abs(answer->fraction - named->fraction) / named->fraction_band,
+                      std::abs(answer->u - named->u) / named->u_band, std::abs(answer->v - named->v) / named->v_band});
     }
     ++tally.pairs;
     tally.triangles += static_cast<std::int64_t>(fan.stored.triangles());
     tally.hits += answer ? 1 : 0;
     tally.different += answer ? !named_is_hit : any;
     tally.largest = std::max(tally.largest, used);
-    EXPECT_LE(used, 1) << fan.stored.triangles() << " triangles, answer " << (answer ? static_cast<int>(answer->triangle) : -1);
+    EXPECT_LE(used, 1) << fan.stored.triangles() << " triangles, answer "
+                       << (answer ? static_cast<int>(answer->triangle) : -1);
 }
 
 /// Seven in ten from the front at a point of a triangle, a third of these at its edge with the next; the others
@@ -214,21 +212,24 @@ RealFan<Scalar> random_one_ring(double scale, double offset, Random& random) {
         const auto placed = [scale](const D& p) -> Vec3<Scalar> { return (scale * p).cast<Scalar>(); };
         std::vector<Vec3<Scalar>> ring;
         for (std::size_t k = 0; k <= n; ++k) {
-            const double angle = (static_cast<double>(k) + random.between(-0.4, 0.4)) * 6.283185307179586 / static_cast<double>(n + (closed ? 0 : 1));
-            ring.push_back(placed(apex + random.between(0.3, 1) * (std::cos(angle) * x + std::sin(angle) * y) + random.between(-0.5, 0.5) * axis));
+            const double angle = (static_cast<double>(k) + random.between(-0.4, 0.4)) * 6.283185307179586 /
+                                 static_cast<double>(n + (closed ? 0 : 1));
+            ring.push_back(placed(apex + random.between(0.3, 1) * (std::cos(angle) * x + std::sin(angle) * y) +
+                                  random.between(-0.5, 0.5) * axis));
         }
         if (closed) ring.back() = ring.front();
         bool good = true;
-        for (std::size_t k = 0; k < n; ++k) good = good && kernels::TriangleFan::has_basis<Scalar>(placed(apex), ring[k], ring[k + 1]);
+        for (std::size_t k = 0; k < n; ++k)
+            good = good && kernels::TriangleFan::has_basis<Scalar>(placed(apex), ring[k], ring[k + 1]);
         if (good) return prepared<Scalar>(placed(apex), ring);
     }
 }
 
 void report(const char* type, const char* where, const FanTally& tally) {
     const auto pairs = static_cast<double>(tally.pairs);
-    std::printf("%-6s %-8s %lld pairs of %.1f triangles, %lld hits, %lld different, largest error %.3Lf of the band\n", type, where,
-                static_cast<long long>(tally.pairs), static_cast<double>(tally.triangles) / pairs, static_cast<long long>(tally.hits),
-                static_cast<long long>(tally.different), tally.largest);
+    std::printf("%-6s %-8s %lld pairs of %.1f triangles, %lld hits, %lld different, largest error %.3Lf of the band\n",
+                type, where, static_cast<long long>(tally.pairs), static_cast<double>(tally.triangles) / pairs,
+                static_cast<long long>(tally.hits), static_cast<long long>(tally.different), tally.largest);
     EXPECT_GT(tally.hits, tally.pairs / 3);
     EXPECT_GT(tally.largest, 1e-3L) << "the band is so wide that nothing could fail";
     EXPECT_LT(tally.largest, 0.75L) << "not what the comment says";
@@ -244,9 +245,11 @@ void run() {
     };
     Random random(1);
     std::int64_t pairs = 0;
-    for (const Placement& place : {Placement{"origin", 1, 0}, {"offset", 1, 100}, {"large", 0x1p30, 0}, {"small", 0x1p-30, 0}}) {
+    for (const Placement& place :
+         {Placement{"origin", 1, 0}, {"offset", 1, 100}, {"large", 0x1p30, 0}, {"small", 0x1p-30, 0}}) {
         FanTally tally;
-        for (int i = 0; i < 40'000; ++i) pairs_of(random_one_ring<Scalar>(place.scale, place.offset, random), place.scale, 5, random, tally);
+        for (int i = 0; i < 40'000; ++i)
+            pairs_of(random_one_ring<Scalar>(place.scale, place.offset, random), place.scale, 5, random, tally);
         report(type, place.name, tally);
         EXPECT_GT(tally.different, 0);
         pairs += tally.pairs;

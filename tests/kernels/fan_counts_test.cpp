@@ -16,15 +16,17 @@ using D = Vec3<double>;
 
 TriangleFan::First<Counted> counted(const TriangleFan::First<double>& f) {
     const auto plane = [](const kernels::Plane<double>& p) {
-        return kernels::Plane<Counted>{{Counted(p.normal[0]), Counted(p.normal[1]), Counted(p.normal[2])}, Counted(p.offset)};
+        return kernels::Plane<Counted>{{Counted(p.normal[0]), Counted(p.normal[1]), Counted(p.normal[2])},
+                                       Counted(p.offset)};
     };
     return {plane(f.u), plane(f.u_plus_v), plane(f.height)};
 }
 
-Counts count(const TriangleFan::First<double>& first, const std::vector<TriangleFan::Turn<double>>& turns, const D& from,
-                      const D& to, bool& hit, std::size_t& which) {
+Counts count(const TriangleFan::First<double>& first, const std::vector<TriangleFan::Turn<double>>& turns,
+             const D& from, const D& to, bool& hit, std::size_t& which) {
     std::vector<TriangleFan::Turn<Counted>> copy;
-    for (const auto& m : turns) copy.push_back({Counted(m.a), Counted(m.b), Counted(m.c), Counted(m.d), Counted(m.e), Counted(m.f)});
+    for (const auto& m : turns)
+        copy.push_back({Counted(m.a), Counted(m.b), Counted(m.c), Counted(m.d), Counted(m.e), Counted(m.f)});
     const auto point = [](const D& p) { return kernels::Triple<Counted>{Counted(p[0]), Counted(p[1]), Counted(p[2])}; };
     const auto numbers = counted(first);
     Counted::counts = {};
@@ -41,12 +43,10 @@ void expect_within(const Counts& counts, int n) {
 }
 
 // No geometry has each plane of a fan met nearer than the one before, always in the same place. Numbers do: each change
-// of basis is chosen so
-// that the line meets the next plane a little earlier, at u = v = `at`. With 1/4 every triangle is hit, and the last is
-// the answer; with
-// 3/4 all but the first are rejected by u + v <= 1, the last condition, and the first is the answer. So every operation
-// that the code has is run
-// but the difference v = z - u of the one that is not the answer.
+// of basis is chosen so that the line meets the next plane a little earlier, at u = v = `at`. With 1/4 every triangle
+// is hit, and the last is the answer; with 3/4 all but the first are rejected by u + v <= 1, the last condition, and
+// the first is the answer. So every operation that the code has is run but the difference v = z - u of the one that is
+// not the answer.
 Counts worst_case(int n, double at, std::size_t& which) {
     const TriangleFan::First<double> first{{{1, 0, 0}, 0}, {{1, 1, 0}, 0}, {{0, 0, 1}, 0}};
     const D from(0.125, 0.25, 1);
@@ -67,7 +67,8 @@ Counts worst_case(int n, double at, std::size_t& which) {
         turns.push_back({(at - v) / u, at / u, sign * c, 0, 0, 1});
         const auto& m = turns.back();
         const auto turned = [&m](const std::array<double, 3>& x) {
-            return std::array<double, 3>{m.a * x[0] + x[1] + m.d * x[2], m.b * x[0] + m.e * x[2], m.c * x[0] + m.f * x[2]};
+            return std::array<double, 3>{m.a * x[0] + x[1] + m.d * x[2], m.b * x[0] + m.e * x[2],
+                                         m.c * x[0] + m.f * x[2]};
         };
         start = turned(start);
         back = turned(back);
@@ -85,8 +86,8 @@ TEST(TriangleFan, WorstCasesStayWithinBarnesCounts) {
             std::size_t which = 0;
             const Counts counts = worst_case(n, at, which);
             ASSERT_EQ(which, at < 0.5 ? static_cast<std::size_t>(n - 1) : 0U);
-            std::printf("n = %2d, answer %2zu: %d divisions, %d multiplications, %d additions (Barnes %d, %d, %d)\n", n, which, counts.divisions,
-                        counts.multiplications, counts.additions, n, 6 + 14 * n, 7 + 11 * n);
+            std::printf("n = %2d, answer %2zu: %d divisions, %d multiplications, %d additions (Barnes %d, %d, %d)\n", n,
+                        which, counts.divisions, counts.multiplications, counts.additions, n, 6 + 14 * n, 7 + 11 * n);
             expect_within(counts, n);
             EXPECT_EQ(counts.divisions, n);
             EXPECT_EQ(counts.additions, 7 + 11 * n);  // else this is not the worst case
@@ -119,7 +120,8 @@ TEST(TriangleFan, RealFansStayWithinBarnesCountsAndAnswerAsTheirTriangles) {
         const D from = 1.5 * random.in_cube();
         const std::size_t k = random.below(n);
         const D w = random.weights();
-        const D to = from + random.between(0.5, 2) * (w[0] * fan.apex + w[1] * fan.ring[k] + w[2] * fan.ring[k + 1] - from);
+        const D to =
+            from + random.between(0.5, 2) * (w[0] * fan.apex + w[1] * fan.ring[k] + w[2] * fan.ring[k + 1] - from);
         const auto answer = kernels::triangle_fan.test(stored, from, to);
         bool counted_hit = false;
         std::size_t which = 0;

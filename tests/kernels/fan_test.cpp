@@ -34,7 +34,8 @@ TEST(TriangleFan, EachChangeOfBasisTakesItsTriangleToTheUnitTriangle) {
                 }
                 if (k == 0) x[1] -= x[0];
                 const D size = (fan.ring[k] - fan.apex).cwiseAbs().cwiseMax((fan.ring[k + 1] - fan.apex).cwiseAbs());
-                const double height = std::exp2(std::ilogb(size.maxCoeff()));  // the basis has n at this scale, for units' sake
+                // The basis has n at this scale, for units' sake.
+                const double height = std::exp2(std::ilogb(size.maxCoeff()));
                 EXPECT_NEAR(x[0], p == 1 ? 1 : 0, 1e-9);
                 EXPECT_NEAR(x[1], p == 2 ? 1 : 0, 1e-9);
                 EXPECT_NEAR(x[2], p == 3 ? height : 0, 1e-9);
@@ -51,7 +52,9 @@ std::pair<double, int> at_scale(int exponent, std::size_t n) {
     int wrong = 0;
     for (int i = 0; i < 500; ++i) {
         const FanGeometry fan = stair(n, random);
-        const auto placed = [exponent](const D& x) -> Vec3<Scalar> { return (std::ldexp(1.0, exponent) * x).cast<Scalar>(); };
+        const auto placed = [exponent](const D& x) -> Vec3<Scalar> {
+            return (std::ldexp(1.0, exponent) * x).cast<Scalar>();
+        };
         std::vector<Vec3<Scalar>> ring;
         for (const D& p : fan.ring) ring.push_back(placed(p));
         const auto stored = kernels::triangle_fan.prepare<Scalar>(placed(fan.apex), ring);
@@ -61,15 +64,15 @@ std::pair<double, int> at_scale(int exponent, std::size_t n) {
         const D normal = (fan.ring[k] - fan.apex).cross(fan.ring[k + 1] - fan.apex).normalized();
         const auto answer = kernels::triangle_fan.test(stored, placed(x + 0.01 * normal), placed(x - 0.01 * normal));
         if (answer && answer->triangle == k)
-            worst = std::max({worst, std::abs(double{answer->fraction} - 0.5), std::abs(double{answer->u} - w[1]), std::abs(double{answer->v} - w[2])});
+            worst = std::max({worst, std::abs(double{answer->fraction} - 0.5), std::abs(double{answer->u} - w[1]),
+                              std::abs(double{answer->v} - w[2])});
         else ++wrong;
     }
     return {worst, wrong};
 }
 
 // Powers of two change nothing: each error is that of 2^0, to the bit, and all answers are right. Edges are 0.5 to 1.1
-// long, so the exponents of
-// the documented range are those with one to spare.
+// long, so the exponents of the documented range are those with one to spare.
 template <class Scalar>
 void expect_range() {
     constexpr int range = kernels::k_fan_range<Scalar>;
@@ -78,8 +81,10 @@ void expect_range() {
         const auto plain = at_scale<Scalar>(0, n);
         std::printf("%zu bytes, n = %zu: largest error %.2g\n", sizeof(Scalar), n, plain.first);
         EXPECT_EQ(plain.second, 0);
-        EXPECT_LT(plain.first, 3e3 * std::numeric_limits<Scalar>::epsilon());  // of 1 / 0.01 in fractions; a sanity check
-        for (const int exponent : {1 - range, -26, -28, -30, 26, 30, range - 1}) EXPECT_EQ(at_scale<Scalar>(exponent, n), plain) << exponent;
+        // Of 1 / 0.01 in fractions; a sanity check.
+        EXPECT_LT(plain.first, 3e3 * std::numeric_limits<Scalar>::epsilon());
+        for (const int exponent : {1 - range, -26, -28, -30, 26, 30, range - 1})
+            EXPECT_EQ(at_scale<Scalar>(exponent, n), plain) << exponent;
         for (const int exponent : {-range - 4, range + 4}) {
             if (n == 1) EXPECT_EQ(at_scale<Scalar>(exponent, n).second, 500) << exponent;
             else EXPECT_THROW((void)at_scale<Scalar>(exponent, n), MeshError) << exponent;
@@ -97,7 +102,8 @@ void expect_range() {
     for (int turned = 0; turned < 2; ++turned) {
         const auto stored = kernels::triangle_fan.prepare<Scalar>(V(0, 0, 0), ring);
         const auto& m = stored.turns[0];
-        EXPECT_TRUE(std::isfinite(m.a) && std::isfinite(m.b) && std::isfinite(m.c) && std::isfinite(m.d) && std::isfinite(m.e) && std::isfinite(m.f));
+        EXPECT_TRUE(std::isfinite(m.a) && std::isfinite(m.b) && std::isfinite(m.c) && std::isfinite(m.d) &&
+                    std::isfinite(m.e) && std::isfinite(m.f));
         std::swap(ring[0], ring[2]);
     }
 }
@@ -114,7 +120,8 @@ TEST(TriangleFan, OfEqualFractionsTheFirstTriangleIsTheAnswer) {
         ASSERT_TRUE(answer);
         EXPECT_EQ(answer->triangle, 0U);
         EXPECT_EQ(answer->v, 0.5);
-        const auto last = kernels::triangle_fan.test(stored, D(ring[n - 1][0] / 2, ring[n - 1][1] / 2, 1), D(ring[n - 1][0] / 2, ring[n - 1][1] / 2, -1));
+        const auto last = kernels::triangle_fan.test(stored, D(ring[n - 1][0] / 2, ring[n - 1][1] / 2, 1),
+                                                     D(ring[n - 1][0] / 2, ring[n - 1][1] / 2, -1));
         ASSERT_TRUE(last);
         EXPECT_EQ(last->triangle, n - 2);
     }
@@ -129,7 +136,8 @@ TEST(TriangleFan, SidesAreWhatTheParameterSaysForEachTriangle) {
         const auto stored = kernels::triangle_fan.prepare<double>(fan.apex, fan.ring);
         const std::size_t k = random.below(n);
         const D x = (fan.apex + fan.ring[k] + fan.ring[k + 1]) / 3;
-        const D out = 1e-3 * (fan.ring[k] - fan.apex).cross(fan.ring[k + 1] - fan.apex).normalized();  // so short that no other is met
+        // So short that no other is met.
+        const D out = 1e-3 * (fan.ring[k] - fan.apex).cross(fan.ring[k + 1] - fan.apex).normalized();
         for (const Sides sides : {Sides::front, Sides::back, Sides::both}) {
             const TriangleFan kernel{sides};
             const auto down = kernel.test(stored, x + out, x - out);

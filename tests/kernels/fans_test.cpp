@@ -36,14 +36,16 @@ std::size_t expect_cover(const TriangleSoup<Scalar>& soup, std::size_t most = k_
         numbers += 6 * (fan.triangles.size() + 1);
     }
     for (const int times : covered) EXPECT_EQ(times, 1);
-    std::printf("%zu triangles in %zu fans: %.2f triangles a fan, %.2f numbers a triangle\n", soup.triangles.size(), fans.size(),
-                double(soup.triangles.size()) / double(fans.size()), double(numbers) / double(soup.triangles.size()));
+    std::printf("%zu triangles in %zu fans: %.2f triangles a fan, %.2f numbers a triangle\n", soup.triangles.size(),
+                fans.size(), double(soup.triangles.size()) / double(fans.size()),
+                double(numbers) / double(soup.triangles.size()));
     return fans.size();
 }
 
 TEST(Fans, CoverEveryTriangleOnce) {
     const auto sphere = bumpy_sphere(20);
-    EXPECT_LT(expect_cover(sphere), sphere.triangles.size() * 2 / 5);  // a perfect matching of one-rings would be a sixth
+    // A perfect matching of one-rings would be a sixth.
+    EXPECT_LT(expect_cover(sphere), sphere.triangles.size() * 2 / 5);
     expect_cover(terrain(20, 0.1, 1));
     expect_cover(polycube(4, 0.5, 1, 3));  // edges with four faces, vertices where several sheets meet
     expect_cover(shards(300, 4));          // nothing joined
@@ -78,7 +80,8 @@ TEST(Fans, HaveAtMostTheMembersThatAreAskedFor) {
         cone.triangles.push_back({1, 2 + (k + 1) % 50, 2 + k});
     }
     EXPECT_EQ(k_most_in_fan, 16U);
-    for (const auto& [most, fans] : {std::pair{50U, 2U}, {49U, 4U}, {16U, 8U}, {7U, 16U}, {1U, 100U}}) EXPECT_EQ(expect_cover(cone, most), fans);
+    for (const auto& [most, fans] : {std::pair{50U, 2U}, {49U, 4U}, {16U, 8U}, {7U, 16U}, {1U, 100U}})
+        EXPECT_EQ(expect_cover(cone, most), fans);
     EXPECT_EQ(fans_of(cone.view(), 0).size(), 100U);
     for (const Fan& fan : fans_of(cone.view())) EXPECT_GE(fan.triangles.size(), 12U);
 }

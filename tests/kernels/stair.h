@@ -21,7 +21,8 @@ inline FanGeometry stair(std::size_t n, Random& random) {
     const Vec3<double> y = axis.cross(x);
     double angle = 0;
     for (std::size_t k = 0; k <= n; ++k) {
-        fan.ring.push_back(fan.apex + random.between(0.5, 1) * (std::cos(angle) * x + std::sin(angle) * y) + random.between(-0.4, 0.4) * axis);
+        fan.ring.push_back(fan.apex + random.between(0.5, 1) * (std::cos(angle) * x + std::sin(angle) * y) +
+                           random.between(-0.4, 0.4) * axis);
         angle += random.between(0.4, 1.6);
     }
     return fan;

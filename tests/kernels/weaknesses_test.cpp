@@ -43,8 +43,9 @@ TEST(KernelWeaknesses, McGuiresToleranceHitsBesideTheTriangle) {
     const std::array<D, 3> t = {D{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const kernels::McGuire tolerant{.tolerance = 1e-3};
     // Each edge in turn: v, u and w = 1 - u - v are what is tolerated.
-    for (const auto& at : {+[](double beside) { return D(0.5, -beside, 0); }, +[](double beside) { return D(-beside, 0.5, 0); },
-                           +[](double beside) { return D(0.5, 0.5 + beside, 0); }}) {
+    for (const auto& at :
+         {+[](double beside) { return D(0.5, -beside, 0); }, +[](double beside) { return D(-beside, 0.5, 0); },
+          +[](double beside) { return D(0.5, 0.5 + beside, 0); }}) {
         const D up(0, 0, 1);
         EXPECT_TRUE(tested(tolerant, t, D(at(0.9e-3) + up), D(at(0.9e-3) - up)));
         EXPECT_FALSE(tested(tolerant, t, D(at(1.1e-3) + up), D(at(1.1e-3) - up)));
@@ -72,8 +73,7 @@ bool hit_with_published_signs(const std::array<D, 3>& t, const D& from, const D&
 }
 
 // Triangles of size 1 and segments through their inside. Of the point where the segment meets the plane the listing has
-// from's part right
-// and to's mirrored in the origin: two thirds are lost there, all at ten times the size away from it.
+// from's part right and to's mirrored in the origin: two thirds are lost there, all at ten times the size away from it.
 TEST(KernelWeaknesses, BloomsPublishedSignsLoseMostHits) {
     for (const double offset : {0.0, 10.0}) {
         Random random(2);
@@ -154,17 +154,29 @@ TEST(KernelWeaknesses, ErrorsOfAFanGrowAlongItsMembers) {
                 const auto one = tested(kernels::baldwin_weber_12, t, from, to);
                 const auto answer = kernels::triangle_fan.test(stored, from, to);
                 ASSERT_TRUE(truth && one && answer && answer->triangle == k);
-                const auto error = [&](const auto& it) { return double{std::max(std::abs(it->u - truth->u), std::abs(it->v - truth->v))}; };
+                const auto error = [&](const auto& it) {
+                    return double{std::max(std::abs(it->u - truth->u), std::abs(it->v - truth->v))};
+                };
                 worst[n] = std::max(worst[n], error(answer));
                 alone = std::max(alone, error(one));
             }
         }
-        std::printf("%3d members: the largest error of u and v in float %.2g, of single triangles %.2g\n", n, worst[n], alone);
+        std::printf("%3d members: the largest error of u and v in float %.2g, of single triangles %.2g\n", n, worst[n],
+                    alone);
         if (n <= 16) EXPECT_LT(worst[n], 12 * alone);
         else EXPECT_GT(worst[n], 50 * alone);
     }
     EXPECT_GT(worst[64], 30 * worst[16]);
     EXPECT_GT(worst[256], 10 * worst[64]);
+}
+
+// Of the segments aimed at an edge or a corner that triangles share some get through, but none past these two kernels.
+void expect_holes_but_in_two(const std::map<std::string, int>& through, const char* what) {
+    for (const auto& [name, count] : through) {
+        std::printf("%-17s %d segments %s\n", name.c_str(), count, what);
+        if (name == "watertight" || name == "exact") EXPECT_EQ(count, 0) << name;
+        else EXPECT_GT(count, 0) << name;
+    }
 }
 
 // Two triangles that share an edge, and segments from the front of both through points of the edge.
@@ -191,13 +203,7 @@ TEST(KernelWeaknesses, OnlyWatertightAndExactHaveNoCracksAtSharedEdges) {
         for_each_kernel(crack);
         crack("exact", kernels::exact);
     }
-    for (const auto& [name, count] : through) {
-        std::printf("%-17s %d segments pass between two triangles\n", name.c_str(), count);
-        if (name == "watertight" || name == "exact")
-            EXPECT_EQ(count, 0) << name;
-        else
-            EXPECT_GT(count, 0) << name;
-    }
+    expect_holes_but_in_two(through, "pass between two triangles");
 }
 
 // A closed fan around a corner, and segments through it: exactly, as nearly as coordinates allow.
@@ -210,7 +216,8 @@ TEST(KernelWeaknesses, OnlyWatertightAndExactHaveNoHolesAtCorners) {
         const double height = random.between(-0.2, 0.2);
         std::vector<Vec3<float>> ring;
         for (std::size_t k = 0; k < n; ++k) {
-            const double angle = (static_cast<double>(k) + random.between(0, 0.3)) * 6.283185307179586 / static_cast<double>(n);
+            const double angle =
+                (static_cast<double>(k) + random.between(0, 0.3)) * 6.283185307179586 / static_cast<double>(n);
             const double radius = random.between(0.5, 1);
             const double rise = height + random.between(-0.05, 0.05);
             ring.push_back((corner + D(radius * std::cos(angle), radius * std::sin(angle), rise)).cast<float>());
@@ -222,19 +229,14 @@ TEST(KernelWeaknesses, OnlyWatertightAndExactHaveNoHolesAtCorners) {
         const Vec3<float> to = (x - way).cast<float>();
         const auto leak = [&](const char* name, const auto& kernel) {
             bool hit = false;
-            for (std::size_t k = 0; k < n; ++k) hit = hit || tested(kernel, {apex, ring[k], ring[(k + 1) % n]}, from, to).has_value();
+            for (std::size_t k = 0; k < n; ++k)
+                hit = hit || tested(kernel, {apex, ring[k], ring[(k + 1) % n]}, from, to).has_value();
             through[name] += hit ? 0 : 1;
         };
         for_each_kernel(leak);
         leak("exact", kernels::exact);
     }
-    for (const auto& [name, count] : through) {
-        std::printf("%-17s %d segments pass through the corner\n", name.c_str(), count);
-        if (name == "watertight" || name == "exact")
-            EXPECT_EQ(count, 0) << name;
-        else
-            EXPECT_GT(count, 0) << name;
-    }
+    expect_holes_but_in_two(through, "pass through the corner");
 }
 
 // A segment down the z axis, and an edge that passes it at a distance of 2^-47: both products of its edge function are

@@ -16,7 +16,8 @@ using detail::Wide;
 template <class Scalar>
 Pair some_pair(Random& random) {
     const auto family = static_cast<Family>(random.below(static_cast<std::size_t>(Family::count)));
-    Pair pair = make_pair_of<Scalar>(random.chance(0.5) ? Family::at_edge : family, 1, random.chance(0.5) ? 0 : 30, random);
+    Pair pair =
+        make_pair_of<Scalar>(random.chance(0.5) ? Family::at_edge : family, 1, random.chance(0.5) ? 0 : 30, random);
     if (random.chance(0.01)) pair.path.to[random.below(3)] = std::numeric_limits<double>::quiet_NaN();
     return pair;
 }
@@ -41,8 +42,9 @@ void compare(const char* name, const Kernel& kernel) {
         }
         using Ends = kernels::Triple<Number>;
         using End = kernels::Triple<Scalar>;
-        const auto wide = kernel.evaluate(side_by_side<Broad, Narrow, Scalar, Lanes>(stored), side_by_side<Ends, End, Scalar, Lanes>(from),
-                                          side_by_side<Ends, End, Scalar, Lanes>(to));
+        const auto wide =
+            kernel.evaluate(side_by_side<Broad, Narrow, Scalar, Lanes>(stored),
+                            side_by_side<Ends, End, Scalar, Lanes>(from), side_by_side<Ends, End, Scalar, Lanes>(to));
         for (std::size_t lane = 0; lane < Lanes; ++lane) {
             const auto one = kernel.evaluate(stored[lane], from[lane], to[lane]);
             ASSERT_EQ(one.hit, wide.hit[lane]) << name << " lane " << lane << " round " << round;
@@ -60,7 +62,8 @@ template <class Scalar, std::size_t Lanes>
 void compare_all() {
     for_each_kernel([](const char* name, const auto& kernel) {
         using Kernel = std::remove_cvref_t<decltype(kernel)>;
-        if constexpr (std::is_same_v<Kernel, kernels::TriangleFan>) return;  // has a branch for each triangle, and no wide form
+        // A fan has a branch for each triangle, and no wide form.
+        if constexpr (std::is_same_v<Kernel, kernels::TriangleFan>) return;
         else compare<Scalar, Lanes>(name, kernel);
         if constexpr (!std::is_same_v<Kernel, kernels::TriangleFan> && requires { kernel.sides; })
             for (const Sides sides : {Sides::back, Sides::both}) compare<Scalar, Lanes>(name, Kernel{sides});

@@ -1,11 +1,9 @@
 // Reading gives the same bits in every floating-point environment.
 //
 // A binary PLY file with double coordinates was read into float by the caller's arithmetic. Where denormal numbers are
-// flushed, which
-// games and -ffast-math switch on, 1e-40 became 0, a face of that size lost its area, and particles fell through it;
-// rounding
-// upwards, 0.1 became the next float. Mesh and particles then stood on different coordinates than in the tool that
-// wrote the file. The judges are the bits that the standard environment gives, and constants.
+// flushed, which games and -ffast-math switch on, 1e-40 became 0, a face of that size lost its area, and particles fell
+// through it; rounding upwards, 0.1 became the next float. Mesh and particles then stood on different coordinates than
+// in the tool that wrote the file. The judges are the bits that the standard environment gives, and constants.
 #include "read_test_support.h"
 
 #include <sstream>
@@ -51,7 +49,8 @@ void expect_same_everywhere(const std::string& ending, const std::string& bytes)
     const TempFile file(ending, bytes);
     const auto standard = bits_of(read_in<Scalar>(file, FE_TONEAREST, false));
     test::for_each_setting([&](int rounding, bool flush) {
-        EXPECT_EQ(bits_of(read_in<Scalar>(file, rounding, flush)), standard) << "rounding " << rounding << " flush " << flush;
+        EXPECT_EQ(bits_of(read_in<Scalar>(file, rounding, flush)), standard)
+            << "rounding " << rounding << " flush " << flush;
     });
 }
 
@@ -84,8 +83,7 @@ TEST(ReadEnvironment, DoublesOfABinaryFileAreRoundedToNearestFloats) {
 
 TEST(ReadEnvironment, ChangesNoBitOfAnyFormat) {
     // Numbers between two floats, denormal ones, and a concave polygon with three corners that are on one line but for
-    // a rounding,
-    // which other rounding modes would cut another way.
+    // a rounding, which other rounding modes would cut another way.
     const std::vector<double> pentagon = {0, 0, 0, 4, 0.1, 1e-39, 4.1, 4, 0.3, 2, 0.05, 1e-310, 0.1, 3.9, 1e-40};
     std::vector<float> floats(9);
     for (std::size_t i = 0; i < 9; ++i) {

@@ -30,12 +30,14 @@ TEST(OpenMeshFans, AOneRingIsOneClosedFanInsideAndOneOpenFanOnTheBorder) {
         EXPECT_EQ(faces.size(), mesh.valence(vertex) - (mesh.is_boundary(vertex) ? 1U : 0U));
         const auto stored = prepare(mesh, fan);
         EXPECT_EQ(stored.triangles(), fan.triangles.size());
-        for (std::size_t k = 0; k < fan.triangles.size(); ++k) {  // its middle is hit from above, on the triangle that it is in
+        // A triangle's middle is hit from above, on that triangle.
+        for (std::size_t k = 0; k < fan.triangles.size(); ++k) {
             Vec3<double> middle = Vec3<double>::Zero();
             for (const auto corner : mesh.fv_range(OpenMesh::FaceHandle(static_cast<int>(fan.triangles[k]))))
                 for (int axis = 0; axis < 3; ++axis)
                     middle[axis] += mesh.point(corner)[static_cast<std::size_t>(axis)] / 3;
-            const auto hit = kernels::triangle_fan.test(stored, middle + Vec3<double>(0, 0, 1), middle - Vec3<double>(0, 0, 1));
+            const auto hit =
+                kernels::triangle_fan.test(stored, middle + Vec3<double>(0, 0, 1), middle - Vec3<double>(0, 0, 1));
             ASSERT_TRUE(hit);
             EXPECT_EQ(hit->triangle, k);
             EXPECT_NEAR(hit->u, 1.0 / 3, 1e-12);
@@ -54,7 +56,8 @@ TEST(OpenMeshFans, CoverEachFaceThatIsNotDeletedOnce) {
     mesh.request_face_status();
     mesh.request_edge_status();
     mesh.request_vertex_status();
-    for (int face = 0; face < static_cast<int>(mesh.n_faces()); face += 7) mesh.delete_face(OpenMesh::FaceHandle(face), false);
+    for (int face = 0; face < static_cast<int>(mesh.n_faces()); face += 7)
+        mesh.delete_face(OpenMesh::FaceHandle(face), false);
     std::vector<int> covered(mesh.n_faces());
     for (const Fan& fan : fans_of_openmesh(mesh)) {
         for (const std::uint32_t face : fan.triangles) ++covered[face];

@@ -1,11 +1,12 @@
 // all_hits with `accept`: the way to each hit's point is clear but for hits that were accepted, and come strictly
 // before it.
 //
-//   from                 Two faces almost in the same place. `accept` refuses the contact of the caller's segment with the nearer one, by
-//     \                  its barycentric weights (a hole in a texture, no larger than that); it takes other contacts with it.
-//   ---x---- refused     The point that was returned for the farther hit lay behind the nearer face, and as points are rounded, the
-//   ----x--- hit         segment from -> point met that face beside the hole: a particle that was put there had gone through a
-//       to               face that counts. The search for the point took every face hit before as passed, accepted or not.
+//   from                 Two faces almost in the same place. `accept` refuses the contact of the caller's segment with
+//     \                  the nearer one, by its barycentric weights (a hole in a texture, no larger than that); it
+//   ---x---- refused     takes other contacts with it. The point that was returned for the farther hit lay behind the
+//   ----x--- hit         nearer face, and as points are rounded, the segment from -> point met that face beside the
+//       to               hole: a particle that was put there had gone through a face that counts. The search for the
+//                        point took every face hit before as passed, accepted or not.
 //
 // What is asked depends on the contact only, as QueryOptions::accept must. first_hit and sweep are held to the same.
 #include <gtest/gtest.h>
@@ -32,7 +33,8 @@ Stack<Scalar> stack(std::uint32_t faces, Random& random) {
     const auto near = [&] { return static_cast<Scalar>(random.between(-2, 2)); };
     const auto height = [&] { return static_cast<Scalar>(random.between(-0.3, 0.3)); };
     Stack<Scalar> out;
-    const std::array<S, 3> first = {S(near(), near(), height()), S(near() + 3, near(), height()), S(near(), near() + 3, height())};
+    const std::array<S, 3> first = {S(near(), near(), height()), S(near() + 3, near(), height()),
+                                    S(near(), near() + 3, height())};
     const double least = std::log(static_cast<double>(std::numeric_limits<Scalar>::epsilon()));
     for (std::uint32_t i = 0; i < faces; ++i) {
         const double apart = i * std::exp(random.between(least, -2));
@@ -52,7 +54,8 @@ template <class Scalar>
 bool strictly_before(const Stack<Scalar>& stack, std::uint32_t x, std::uint32_t y) {
     const auto corners = [&](std::uint32_t triangle) {
         detail::Corners c;
-        for (std::size_t k = 0; k < 3; ++k) c[k] = detail::to_point(stack.soup.positions[stack.soup.triangles[triangle][k]]);
+        for (std::size_t k = 0; k < 3; ++k)
+            c[k] = detail::to_point(stack.soup.positions[stack.soup.triangles[triangle][k]]);
         return c;
     };
     return detail::compare_fractions(detail::to_path(stack.segment), corners(x), corners(y)) < 0;
@@ -98,7 +101,9 @@ void nearer_contact_refused() {
             return false;
         };
         EXPECT_FALSE(mesh.any_hit(two.segment, {.accept = look}));
-        const auto accept = [&](const Contact& contact) { return contact.triangle != nearer || contact.barycentric != hole; };
+        const auto accept = [&](const Contact& contact) {
+            return contact.triangle != nearer || contact.barycentric != hole;
+        };
         ASSERT_EQ(expect_clear(two, mesh, {.accept = accept}), 1U);
         ++asked;
     }

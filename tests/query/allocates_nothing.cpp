@@ -48,13 +48,18 @@ void check() {
     expect_none("first_hits", [&] { mesh.first_hits(segments, hits); });
     expect_none("first_hits with options", [&] { mesh.first_hits(segments, hits, options); });
     expect_none("any_hits", [&] { mesh.any_hits(segments, any, options); });
-    expect_none("first_hits of blocks", [&] { mesh.first_hits(state.topRows(3), state.middleRows(3, 3), hits, options); });
-    expect_none("sweep_points of blocks", [&] { mesh.sweep_points(state.topRows(3), state.middleRows(3, 3), swept, options); });
+    expect_none("first_hits of blocks",
+                [&] { mesh.first_hits(state.topRows(3), state.middleRows(3, 3), hits, options); });
+    expect_none("sweep_points of blocks",
+                [&] { mesh.sweep_points(state.topRows(3), state.middleRows(3, 3), swept, options); });
     std::array<Hit<Scalar>, 8> all;
     expect_none("single calls", [&] {
         for (std::size_t i = 0; i < segments.size(); i += 5) {
             hits[i] = mesh.first_hit(segments[i], options);
-            any[i] = mesh.any_hit(segments[i]) && mesh.all_hits(segments[i], all) > 0 && mesh.crossings(segments[i]) != 0 ? 1 : 0;
+            any[i] =
+                mesh.any_hit(segments[i]) && mesh.all_hits(segments[i], all) > 0 && mesh.crossings(segments[i]) != 0
+                    ? 1
+                    : 0;
         }
     });
     if (counters.exact_decisions == 0) {

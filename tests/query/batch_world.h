@@ -1,6 +1,5 @@
 // What batches are tried with: a mesh of lattice and random triangles whose faces are cut into several, and segments of
-// all kinds,
-// finite and not.
+// all kinds, finite and not.
 #pragma once
 
 #include <limits>
@@ -15,18 +14,14 @@ namespace pierce::test {
 template <class Scalar>
 TriangleSoup<Scalar> lattice_and_shards() {
     TriangleSoup<double> soup = polycube(4, 0.5, 2, 3);
-    const auto first = static_cast<std::uint32_t>(soup.positions.size());
-    const TriangleSoup<double> more = shards(400, 5);
-    for (const Vec3<double>& p : more.positions) soup.positions.push_back(6 * p);
-    for (const IndexTriple& t : more.triangles) soup.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    append(soup, moved<double>(shards(400, 5), 6, Vec3<double>::Zero()));
     soup.triangles.push_back({0, 0, 1});  // of area zero
     for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) soup.faces.push_back(i / 2);
     return moved<Scalar>(soup, 1, Vec3<double>(0.5, 0.25, 0));
 }
 
 /// One in thirty has a coordinate that is NaN or infinite; a few are of no length, miss the mesh's box, or reach so far
-/// that every
-/// triangle is asked.
+/// that every triangle is asked.
 template <class Scalar>
 std::vector<Segment<Scalar>> batch_segments(const MeshView<Scalar>& mesh, std::size_t count, std::uint64_t seed) {
     constexpr auto infinity = std::numeric_limits<Scalar>::infinity();
@@ -37,7 +32,8 @@ std::vector<Segment<Scalar>> batch_segments(const MeshView<Scalar>& mesh, std::s
         Segment<Scalar> s = mixed_segment(mesh, extent, random);
         const double kind = random.unit();
         if (kind < 0.03) {
-            const Scalar bad = std::array{infinity, -infinity, std::numeric_limits<Scalar>::quiet_NaN()}[random.below(3)];
+            const Scalar bad =
+                std::array{infinity, -infinity, std::numeric_limits<Scalar>::quiet_NaN()}[random.below(3)];
             (random.chance(0.5) ? s.from : s.to)[random.between_ints(0, 2)] = bad;
         } else if (kind < 0.05) {
             s.to = s.from;

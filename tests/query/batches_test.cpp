@@ -93,7 +93,8 @@ void compare(const CollisionMesh<Scalar>& mesh, std::span<const Segment<Scalar>>
     std::vector<Vec3<Scalar>> ends;
     Matrix<Scalar> from(3, count);
     Matrix<Scalar> to(3, count);
-    Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> state = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>::Zero(8, count);
+    Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> state =
+        Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>::Zero(8, count);
     for (Eigen::Index i = 0; i < count; ++i) {
         const Segment<Scalar>& s = segments[static_cast<std::size_t>(i)];
         starts.push_back(s.from);
@@ -103,7 +104,8 @@ void compare(const CollisionMesh<Scalar>& mesh, std::span<const Segment<Scalar>>
         state.col(i) << 7, s.from, s.to, 7;
     }
     const Eigen::Map<const Matrix<Scalar>> map(to.data(), 3, count);
-    const Eigen::Matrix<Scalar, 3, Eigen::Dynamic, Eigen::RowMajor> rows = from;  // its columns are not contiguous: copied
+    // Columns of this one are not contiguous: it is copied.
+    const Eigen::Matrix<Scalar, 3, Eigen::Dynamic, Eigen::RowMajor> rows = from;
 
     Comparison<Scalar> c(mesh, expected, options);
     c.template first<Found>("segments", [&](auto out, const auto& o) { return mesh.first_hits(segments, out, o); });
@@ -112,7 +114,8 @@ void compare(const CollisionMesh<Scalar>& mesh, std::span<const Segment<Scalar>>
     c.template first<Found>("blocks", [&](auto out, const auto& o) {
         return mesh.first_hits(state.middleRows(1, 3), state.middleRows(4, 3), out, o);
     });
-    c.template first<Swept>("swept spans", [&](auto out, const auto& o) { return mesh.sweep_points(starts, ends, out, o); });
+    c.template first<Swept>("swept spans",
+                            [&](auto out, const auto& o) { return mesh.sweep_points(starts, ends, out, o); });
     c.template first<Swept>("swept rows", [&](auto out, const auto& o) { return mesh.sweep_points(rows, to, out, o); });
     c.template first<Swept>("swept blocks", [&](auto out, const auto& o) {
         return mesh.sweep_points(from, state.middleRows(4, 3), out, o);
@@ -122,7 +125,8 @@ void compare(const CollisionMesh<Scalar>& mesh, std::span<const Segment<Scalar>>
 }
 
 template <class Scalar>
-void compare(const CollisionMesh<Scalar>& mesh, std::span<const Segment<Scalar>> segments, const BatchOptions& options = {}) {
+void compare(const CollisionMesh<Scalar>& mesh, std::span<const Segment<Scalar>> segments,
+             const BatchOptions& options = {}) {
     compare<Scalar>(mesh, segments, options, Expected<Scalar>(mesh, segments, options));
 }
 
@@ -141,7 +145,8 @@ TYPED_TEST_SUITE(Batches, Scalars);
 
 // None, one, around the 16 that are under way together, around the 1024 of a part, and several parts with a rest.
 TYPED_TEST(Batches, are_single_calls_for_every_size) {
-    for (const std::size_t count : {0U, 1U, 2U, 15U, 16U, 17U, 31U, 32U, 33U, 100U, 1023U, 1024U, 1025U, 2049U, 5000U}) {
+    for (const std::size_t count :
+         {0U, 1U, 2U, 15U, 16U, 17U, 31U, 32U, 33U, 100U, 1023U, 1024U, 1025U, 2049U, 5000U}) {
         SCOPED_TRACE(count);
         compare<TypeParam>(this->mesh_, this->segments(count, count));
     }
@@ -163,7 +168,9 @@ TYPED_TEST(Batches, hold_under_all_options) {
     std::vector<std::uint8_t> mask(this->soup_.triangles.size() / 2 - 9);
     Random random(3);
     for (auto& m : mask) m = random.chance(0.6) ? 1 : 0;
-    const auto accept = [](const Contact& contact) { return contact.triangle % 3 != 0 || contact.feature != Feature::face; };
+    const auto accept = [](const Contact& contact) {
+        return contact.triangle % 3 != 0 || contact.feature != Feature::face;
+    };
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     for (const Sides sides : {Sides::front, Sides::back, Sides::both})
         for (const double most : {0.0, 0.3, 1.0, 1e300, -0.5, nan})
@@ -195,7 +202,8 @@ TYPED_TEST(Batches, hold_for_every_executor_and_chunking) {
     std::size_t hits = 0;
     for (std::size_t first = 0; first < segments.size();) {
         const std::size_t some = std::min(segments.size() - first, random.below(random.chance(0.1) ? 2000 : 40));
-        hits += this->mesh_.first_hits(std::span(segments).subspan(first, some), std::span(out).subspan(first, some), options);
+        hits += this->mesh_.first_hits(std::span(segments).subspan(first, some), std::span(out).subspan(first, some),
+                                       options);
         first += some;
     }
     EXPECT_EQ(hits, expected.count);
@@ -207,7 +215,8 @@ TYPED_TEST(Batches, hold_for_every_grid) {
     const auto segments = this->segments(1500, 6);
     for (const double cell : {1e300, 0.05, 0.5}) {
         SCOPED_TRACE(cell);
-        const CollisionMesh<TypeParam> mesh(this->soup_.view(), {.cell_size = cell, .max_grid_bytes = std::size_t{1} << 24});
+        const CollisionMesh<TypeParam> mesh(this->soup_.view(),
+                                            {.cell_size = cell, .max_grid_bytes = std::size_t{1} << 24});
         compare<TypeParam>(mesh, segments, {}, Expected<TypeParam>(this->mesh_, segments, {}));
     }
     const CollisionMesh<TypeParam> nothing{MeshView<TypeParam>{}};
@@ -217,23 +226,23 @@ TYPED_TEST(Batches, hold_for_every_grid) {
 // A thread starts in the arithmetic of the one that made it.
 std::array<std::uint64_t, 9> fields(const QueryCounters& c) {
     static_assert(sizeof c == 9 * sizeof(std::uint64_t));
-    return {c.queries, c.nodes, c.clusters, c.triangles, c.exact_decisions, c.exact_orders, c.exact_values, c.exact_sides, c.retreats};
+    return {c.queries,      c.nodes,        c.clusters,    c.triangles, c.exact_decisions,
+            c.exact_orders, c.exact_values, c.exact_sides, c.retreats};
 }
 
 // What is counted once depended on a query's neighbours: with crowded cells, on whether the list of all of them was
 // full.
 TYPED_TEST(Batches, count_as_single_calls_do_whoever_is_beside_them) {
     auto stadium = this->soup_;  // small and large triangles, for more than one level
-    const auto first = static_cast<std::uint32_t>(stadium.positions.size());
     const auto hills = moved<TypeParam>(terrain(40, 0.1, 3), 1e-3, Vec3<double>::Zero());
-    stadium.positions.insert(stadium.positions.end(), hills.positions.begin(), hills.positions.end());
-    for (const IndexTriple& t : hills.triangles) stadium.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     stadium.faces.clear();
+    append(stadium, hills);
     for (const double cell : {0.0, 0.1, 1.0, 10.0}) {
         const CollisionMesh<TypeParam> mesh(stadium.view(), {.cell_size = cell});
         std::vector<Segment<TypeParam>> segments = batch_segments(stadium.view(), 1500, 9);
         const auto near = batch_segments(hills.view(), 1500, 10);
-        for (std::size_t i = 0; i < near.size(); ++i) segments.insert(segments.begin() + static_cast<std::ptrdiff_t>(2 * i), near[i]);
+        for (std::size_t i = 0; i < near.size(); ++i)
+            segments.insert(segments.begin() + static_cast<std::ptrdiff_t>(2 * i), near[i]);
         QueryCounters single;
         for (const auto& s : segments) std::ignore = mesh.first_hit(s, {.counters = &single});
         QueryCounters any;
@@ -251,7 +260,9 @@ TYPED_TEST(Batches, count_as_single_calls_do_whoever_is_beside_them) {
             mesh.any_hits(segments, found, options);
             EXPECT_EQ(fields(counters), fields(any));
             std::rotate(segments.begin(), segments.begin() + 7, segments.end());
-            if (order == 1) std::sort(segments.begin(), segments.end(), [](const auto& a, const auto& b) { return a.from[0] < b.from[0]; });
+            if (order == 1)
+                std::sort(segments.begin(), segments.end(),
+                          [](const auto& a, const auto& b) { return a.from[0] < b.from[0]; });
         }
     }
 }

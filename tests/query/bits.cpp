@@ -22,10 +22,7 @@ TriangleSoup<double> splinters(std::uint32_t count, std::uint64_t seed) {
         const Vec3<double> along = size * random.direction();
         const Vec3<double> across = thin * size * random.direction();
         const double part = random.unit();
-        soup.positions.push_back(a);
-        soup.positions.push_back(a + along);
-        soup.positions.push_back(a + part * along + across);
-        soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        add_triangle(soup, a, a + along, a + part * along + across);
     }
     return soup;
 }
@@ -47,7 +44,8 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
         const double length = scale * (random.chance(0.5) ? 0.01 : 3);
         const Vec3<double> d = length * random.in_cube();
         const double beyond = random.unit();
-        const Segment<Scalar> segment{(target - d).template cast<Scalar>(), (target + beyond * d).template cast<Scalar>()};
+        const Segment<Scalar> segment{(target - d).template cast<Scalar>(),
+                                      (target + beyond * d).template cast<Scalar>()};
         segments.push_back(segment);
         const std::size_t total = mesh.all_hits(segment, hits, {.sides = Sides::both});
         hash.add(total);

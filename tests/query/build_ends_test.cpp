@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <pierce/pierce.h>
+#include <support/meshes.h>
 
 namespace pierce::test {
 namespace {
@@ -15,10 +16,8 @@ using V = Vec3<double>;
 TriangleSoup<double> row(std::size_t count, double edge) {
     TriangleSoup<double> soup;
     for (std::size_t i = 0; i < count; ++i) {
-        const auto first = static_cast<std::uint32_t>(soup.positions.size());
         const double x = static_cast<double>(i) * edge;
-        soup.positions.insert(soup.positions.end(), {V(x, 0, 0), V(x + edge, 0, 0), V(x, edge, 0)});
-        soup.triangles.push_back({first, first + 1, first + 2});
+        add_triangle(soup, V(x, 0, 0), V(x + edge, 0, 0), V(x, edge, 0));
     }
     return soup;
 }
@@ -29,11 +28,10 @@ TEST(BuildEnds, for_a_triangle_as_wide_as_the_range_of_doubles) {
     for (const double reach : {4.4e307, 4.6e307, 1.7e308}) {
         for (const std::size_t max_grid_bytes : {std::size_t{0}, std::size_t{100}}) {
             TriangleSoup<double> soup = row(max_grid_bytes == 0 ? 1000 : 0, 1);
-            const auto first = static_cast<std::uint32_t>(soup.positions.size());
-            soup.positions.insert(soup.positions.end(), {V(-reach, -reach, -5), V(reach, -reach, -5), V(0, reach, -5)});
-            soup.triangles.push_back({first, first + 1, first + 2});
+            add_triangle(soup, V(-reach, -reach, -5), V(reach, -reach, -5), V(0, reach, -5));
             for (const Broadphase broadphase : {Broadphase::tree, Broadphase::grid}) {
-                const CollisionMesh<double> mesh(soup.view(), {.broadphase = broadphase, .max_grid_bytes = max_grid_bytes});
+                const CollisionMesh<double> mesh(soup.view(),
+                                                 {.broadphase = broadphase, .max_grid_bytes = max_grid_bytes});
                 EXPECT_TRUE(std::isfinite(mesh.statistics().cell_size));
                 const auto near = mesh.first_hit({V(500.25, 0.25, 1), V(500.25, 0.25, -10)});
                 ASSERT_TRUE(near);

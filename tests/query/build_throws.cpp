@@ -1,8 +1,6 @@
 // When memory is at an end, a build throws std::bad_alloc, wherever it is and whichever part of it finds out; nothing
-// is lost. An executable
-// of its own: it lets one call of operator new after another fail. (An exception that left a part of a build would have
-// ended the program:
-// its executor's threads have nobody to catch it.)
+// is lost. An executable of its own: it lets one call of operator new after another fail. (An exception that left a
+// part of a build would have ended the program: its executor's threads have nobody to catch it.)
 #include <cstdio>
 #include <new>
 

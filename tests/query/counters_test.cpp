@@ -29,7 +29,8 @@ void expect_all_counted() {
     // Two faces in one tilted plane that share no corner: hits on them are ties that only exact arithmetic finds.
     const auto first = static_cast<std::uint32_t>(soup.positions.size());
     for (const auto& [x, y] : {std::pair{90, -10}, {110, -10}, {100, 10}, {91, -12}, {111, -9}, {99, 12}})
-        soup.positions.push_back({static_cast<Scalar>(x), static_cast<Scalar>(y), static_cast<Scalar>(5 + (x - 100) * 0.25 + y * 0.5)});
+        soup.positions.push_back(
+            {static_cast<Scalar>(x), static_cast<Scalar>(y), static_cast<Scalar>(5 + (x - 100) * 0.25 + y * 0.5)});
     soup.triangles.push_back({first, first + 1, first + 2});
     soup.triangles.push_back({first + 3, first + 4, first + 5});
     // Two sheets at 45 degrees that meet above all this, in a valley: what comes down on one of them close to the
@@ -52,7 +53,8 @@ void expect_all_counted() {
     }
 
     for (int i = 0; i < 500; ++i) {
-        const Vec3<double> at(100 + 2000 * random.unit() * double(std::numeric_limits<Scalar>::epsilon()), random.between(-9, 9), 20);
+        const Vec3<double> at(100 + 2000 * random.unit() * double(std::numeric_limits<Scalar>::epsilon()),
+                              random.between(-9, 9), 20);
         const Vec3<double> way(-random.between(1, 8), random.between(-1, 1), -random.between(0.3, 1.2));
         segments.push_back({(at - way).template cast<Scalar>(), (at + way).template cast<Scalar>()});
     }

@@ -1,6 +1,5 @@
 // Crossings count each passage through the surface once: on lattices, where nearly every segment is degenerate, against
-// the cubes
-// that the surface bounds; on real closed meshes against CGAL.
+// the cubes that the surface bounds; on real closed meshes against CGAL.
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
 #include <support/inside_oracle.h>
@@ -58,14 +57,8 @@ TEST(Crossings, equal_the_change_of_the_winding_number_on_lattices) {
 TEST(Crossings, hold_for_faces_that_repeat_coordinates_and_for_open_meshes) {
     // The same polycube as a soup in which every triangle has vertices of its own: seams by coordinates only.
     const Polycube poly(3, 0.5, 2, 5);
-    TriangleSoup<double> apart;
-    for (const IndexTriple& t : poly.soup.triangles) {
-        const auto first = static_cast<std::uint32_t>(apart.positions.size());
-        for (const std::uint32_t v : t) apart.positions.push_back(poly.soup.positions[v]);
-        apart.triangles.push_back({first, first + 1, first + 2});
-    }
     const CollisionMesh<double> whole(poly.soup.view());
-    const CollisionMesh<double> parts(apart.view());
+    const CollisionMesh<double> parts(apart(poly.soup).view());
     // An open square: each passage counts once, on the diagonal and at the middle too.
     const CollisionMesh<double> square(terrain(2, 0, 1).view());
     Random random(6);
@@ -94,13 +87,8 @@ TEST(Crossings, that_are_not_finite_count_nothing) {
 
 TEST(Crossings, winding_number_counts_nested_and_inverted_surfaces) {
     TriangleSoup<double> soup = bumpy_sphere(6);
-    const auto add = [&soup](TriangleSoup<double> other) {
-        const auto first = static_cast<std::uint32_t>(soup.positions.size());
-        soup.positions.insert(soup.positions.end(), other.positions.begin(), other.positions.end());
-        for (IndexTriple t : other.triangles) soup.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    };
-    add(moved<double>(bumpy_sphere(6), 0.5, V(0, 0, 0)));
-    add(turned_inside_out(moved<double>(bumpy_sphere(6), 0.5, V(5, 0, 0))));
+    append(soup, moved<double>(bumpy_sphere(6), 0.5, V(0, 0, 0)));
+    append(soup, turned_inside_out(moved<double>(bumpy_sphere(6), 0.5, V(5, 0, 0))));
     const CollisionMesh<double> mesh(soup.view());
     EXPECT_EQ(mesh.winding_number(V(0, 0, 0)), 2);
     EXPECT_EQ(mesh.winding_number(V(0.7, 0, 0)), 1);
@@ -136,7 +124,8 @@ TEST_P(RealCrossings, agree_with_cgal) {
         if (side == CGAL::ON_BOUNDARY) continue;
         const bool to_inside = side == CGAL::ON_BOUNDED_SIDE;
         ASSERT_EQ(mesh.contains(to), to_inside) << to.transpose();
-        ASSERT_EQ(mesh.crossings({from, to}), int(to_inside) - int(from_inside)) << from.transpose() << " -> " << to.transpose();
+        ASSERT_EQ(mesh.crossings({from, to}), int(to_inside) - int(from_inside))
+            << from.transpose() << " -> " << to.transpose();
         ++compared;
         inside += to_inside ? 1 : 0;
         from = to;

@@ -1,11 +1,10 @@
 // The values of hits for which a rounded computation is at its worst: they must be as good as all others.
 //
 // For floats the library takes values from the filter's numbers where their bound says that they are good enough. With
-// a bound a
-// thousand times looser, and with the care for denormal numbers taken out, every test passed: random hits are too easy.
-// Here the
-// segment starts close to a plane whose corners are far away (the fraction has few good digits), or passes it at a
-// grazing angle (the weights have few); and fractions and coordinates are denormal. The judge is rational arithmetic.
+// a bound a thousand times looser, and with the care for denormal numbers taken out, every test passed: random hits are
+// too easy. Here the segment starts close to a plane whose corners are far away (the fraction has few good digits), or
+// passes it at a grazing angle (the weights have few); and fractions and coordinates are denormal. The judge is
+// rational arithmetic.
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
@@ -33,14 +32,6 @@ struct One {
     }
 };
 
-// The distance of a value from the exact one, in units in the last place of `at`.
-template <class Scalar>
-double ulps(Scalar value, const Q& exact, double at) {
-    const auto near = static_cast<Scalar>(std::abs(at));
-    const double ulp = double(std::nextafter(near, std::numeric_limits<Scalar>::infinity())) - double(near);
-    return std::abs(CGAL::to_double((Q(double(value)) - exact) / Q(ulp)));
-}
-
 struct Worst {
     int hits = 0;
     double fraction = 0;
@@ -52,15 +43,15 @@ struct Worst {
         const RationalOracle exact = one.exact();
         ++hits;
         fraction = std::max(fraction, ulps(hit->exact_fraction, exact.fraction(), CGAL::to_double(exact.fraction())));
-        for (std::size_t k = 0; k < 3; ++k) weight = std::max(weight, ulps(hit->barycentric[static_cast<int>(k)], exact.weight(k), 1));
+        for (std::size_t k = 0; k < 3; ++k)
+            weight = std::max(weight, ulps(hit->barycentric[static_cast<int>(k)], exact.weight(k), 1));
     }
     void expect(const char* what) const {
         std::cout << what << ": " << hits << " hits; off by at most: fraction " << fraction << ", weights " << weight
                   << " units in the last place\n";
         EXPECT_GT(hits, 10'000) << what;
         // Promised is 1. Kept is what one correct rounding gives, 1/2 and for the weights, which are below 1, 1/4; and
-        // a hair: a
-        // looser filter's numbers would show here long before they break the promise.
+        // a hair: a looser filter's numbers would show here long before they break the promise.
         EXPECT_LE(fraction, 0.5 + 0x1p-5) << what;
         EXPECT_LE(weight, 0.25 + 0x1p-5) << what;
     }
@@ -78,8 +69,7 @@ TEST(DelicateValues, of_a_start_close_to_a_plane_of_far_corners) {
         const V normal = V(at(1) - at(0)).cross(V(at(2) - at(0))).normalized();
         const V middle = at(0).dot(normal) * normal;  // of the plane, nearest to the origin: there floats are fine
         // Heights at which rounding a double of 1e6 takes up to a ten-millionth of it; and fractions just below a power
-        // of two, where
-        // a float's last place is the least of the fraction.
+        // of two, where a float's last place is the least of the fraction.
         const double above = std::exp(random.between(-9, -3));
         const double fraction = random.between(0.96, 0.999) * std::ldexp(1.0, -random.between_ints(0, 9));
         one.segment.from = (middle + above * normal).cast<float>();
@@ -95,15 +85,16 @@ TEST(DelicateValues, of_a_long_grazing_segment_and_a_small_face) {
     for (int i = 0; i < 150'000; ++i) {
         One<float> one;
         // The plane contains (p, q, 0) and (0, u, v), and all corners are exactly on it, as these have few digits. The
-        // segment goes
-        // almost along (p, q, 0), is some thousand times as long as the face, and passes through the plane by a
-        // hundred-thousandth of its length: what rounding does to its height, it does a hundred thousand times to the
-        // place.
-        const std::array<int, 4> few = {random.between_ints(1, 31), random.between_ints(-31, 31), random.between_ints(1, 31),
-                                        random.between_ints(-31, 31)};
+        // segment goes almost along (p, q, 0), is some thousand times as long as the face, and passes through the plane
+        // by a hundred-thousandth of its length: what rounding does to its height, it does a hundred thousand times to
+        // the place.
+        const std::array<int, 4> few = {random.between_ints(1, 31), random.between_ints(-31, 31),
+                                        random.between_ints(1, 31), random.between_ints(-31, 31)};
         const auto in_plane = [&](double r, double s) { return V(few[0] * r, few[1] * r + few[2] * s, few[3] * s); };
         const int size = random.between_ints(-14, -6);
-        const auto some = [&](int low, int high, int exponent) { return std::ldexp(random.between_ints(low, high), exponent); };
+        const auto some = [&](int low, int high, int exponent) {
+            return std::ldexp(random.between_ints(low, high), exponent);
+        };
         one.corners = {in_plane(some(-4095, 0, size - 12), some(1, 4095, size - 12)).cast<float>(),
                        in_plane(some(0, 4095, size - 12), some(1, 4095, size - 12)).cast<float>(),
                        in_plane(some(-2047, 2047, size - 12), some(-4095, -1, size - 12)).cast<float>()};
@@ -117,9 +108,8 @@ TEST(DelicateValues, of_a_long_grazing_segment_and_a_small_face) {
 
 TEST(DelicateValues, a_denormal_fraction_is_a_lower_bound_where_the_point_has_moved) {
     // The segment starts some smallest doubles above the face and goes far aside, so that even this part of the way is
-    // a way. The point keeps as far off
-    // as the start is, and the fraction belongs to it: 0 only where two of the smallest doubles, which the bound takes
-    // off, leave nothing.
+    // a way. The point keeps as far off as the start is, and the fraction belongs to it: 0 only where two of the
+    // smallest doubles, which the bound takes off, leave nothing.
     Random random(43);
     const double tiny = std::numeric_limits<double>::denorm_min();
     int hits = 0;

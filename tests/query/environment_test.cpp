@@ -38,7 +38,8 @@ std::vector<std::uint64_t> answers(const TriangleSoup<Scalar>& soup, const std::
 
 /// Segments of a mesh of size 1, scaled with it.
 template <class Scalar>
-std::vector<Segment<Scalar>> scaled_segments(const TriangleSoup<double>& unit, double scale, std::uint64_t seed, int count) {
+std::vector<Segment<Scalar>> scaled_segments(const TriangleSoup<double>& unit, double scale, std::uint64_t seed,
+                                             int count) {
     const Extent<double> extent(unit.view());
     Random random(seed);
     std::vector<Segment<Scalar>> segments;
@@ -74,8 +75,7 @@ TEST(Environment, changes_no_bit) {
 }
 
 // Threads that a build is given may have settings of their own, as a game's pool has that was made to flush: a mesh of
-// denormal numbers
-// had no area then, and a raster that rounds otherwise than the query's lost triangles.
+// denormal numbers had no area then, and a raster that rounds otherwise than the query's lost triangles.
 template <class Scalar>
 void expect_same_builds(const char* what, double scale) {
     SCOPED_TRACE(what);
@@ -164,14 +164,16 @@ void expect_no_trap() {
             const bool good = &s == &both[0];
             const bool found = mesh.first_hit(s).has_value();
             const bool some = mesh.any_hit(s);
-            const std::size_t count = mesh.all_hits(s, all) + static_cast<std::size_t>(mesh.sweep(s.from, s.to).has_value());
+            const std::size_t count =
+                mesh.all_hits(s, all) + static_cast<std::size_t>(mesh.sweep(s.from, s.to).has_value());
             const bool inside = mesh.contains(s.from);
             const int crossed = mesh.crossings(s);
             const std::size_t faces = mesh.explain(s).size();
             if (good) hit = found && some && count == 2 && !inside && crossed == 0 && faces > 0;
             else refused = refused && !found && !some && count == 0 && !inside && crossed == 0 && faces == 0;
         }
-        refused = refused && !mesh.first_hit(through, nothing) && !mesh.any_hit(through, nothing) && mesh.all_hits(through, all, nothing) == 0;
+        refused = refused && !mesh.first_hit(through, nothing) && !mesh.any_hit(through, nothing) &&
+                  mesh.all_hits(through, all, nothing) == 0;
         hits = mesh.first_hits(both, first, batch) + mesh.any_hits(both, any, batch);
         none = mesh.first_hits(both, first, nothing_batch) + mesh.any_hits(both, any, nothing_batch);
         try {

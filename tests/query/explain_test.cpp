@@ -1,14 +1,13 @@
 // Every reason, and every edge named, is that of rational arithmetic on each face by itself.
 //
 // The tests of small cases never had a face with the segment wholly behind it, nor one passed from its back outside of
-// an
-// edge, nor one passed beyond a corner, outside of two edges at once: code that never said `behind`, took the wrong
-// sign for
-// backs or named the higher of two edges passed them.
+// an edge, nor one passed beyond a corner, outside of two edges at once: code that never said `behind`, took the wrong
+// sign for backs or named the higher of two edges passed them.
 #include <map>
 
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
+#include <support/boxes.h>
 #include <support/oracles.h>
 #include <support/pairs.h>
 
@@ -16,15 +15,6 @@ namespace pierce::test {
 namespace {
 
 using V = Vec3<double>;
-
-bool boxes_apart(const Pair& pair) {
-    const auto& [path, c] = pair;
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (std::max(path.from[k], path.to[k]) < std::min({c[0][k], c[1][k], c[2][k]})) return true;
-        if (std::min(path.from[k], path.to[k]) > std::max({c[0][k], c[1][k], c[2][k]})) return true;
-    }
-    return false;
-}
 
 // What explain() must say of a face that is alone.
 FaceVerdict expected(const Pair& pair, Sides sides) {
@@ -63,8 +53,9 @@ TEST(ExplainReasons, are_those_of_rational_arithmetic) {
         const CollisionMesh<double> mesh({positions, triangles});
         for (const Sides sides : {Sides::front, Sides::back, Sides::both}) {
             const auto verdicts = mesh.explain({vec(pair.path.from), vec(pair.path.to)}, {.sides = sides});
-            if (boxes_apart(pair)) {
-                ASSERT_TRUE(verdicts.empty() || verdicts[0].reason == Reason::apart || verdicts[0].reason == Reason::zero_area);
+            if (boxes_apart(pair.path, pair.corners)) {
+                ASSERT_TRUE(verdicts.empty() || verdicts[0].reason == Reason::apart ||
+                            verdicts[0].reason == Reason::zero_area);
                 continue;
             }
             const FaceVerdict truth = expected(pair, sides);
@@ -80,8 +71,8 @@ TEST(ExplainReasons, are_those_of_rational_arithmetic) {
             corners += outside == 2 ? 1 : 0;
         }
     }
-    for (const Reason reason : {Reason::first_hit, Reason::zero_area, Reason::in_plane, Reason::in_front, Reason::behind,
-                                Reason::wrong_side, Reason::outside_edge})
+    for (const Reason reason : {Reason::first_hit, Reason::zero_area, Reason::in_plane, Reason::in_front,
+                                Reason::behind, Reason::wrong_side, Reason::outside_edge})
         EXPECT_GT(said[reason], 200) << to_string(reason);
     EXPECT_GT(backs, 1000);
     EXPECT_GT(corners, 500);
@@ -91,14 +82,16 @@ TEST(ExplainReasons, in_small_cases) {
     // The face lies in the plane z = 0, its front up; edge 0 is the one along x, edge 1 the slanted one, edge 2 that
     // along y.
     const std::vector<V> positions = {V(0, 0, 0), V(4, 0, 0), V(0, 4, 0), V(0, 0, -9), V(0, 0, -9.5), V(0, 0.5, -9)};
-    const std::vector<IndexTriple> triangles = {{0, 1, 2}, {3, 4, 5}};  // the second is far away, and makes the mesh's box deep
+    // The second is far away, and makes the mesh's box deep.
+    const std::vector<IndexTriple> triangles = {{0, 1, 2}, {3, 4, 5}};
     const CollisionMesh<double> mesh({positions, triangles});
     const auto verdict = [&](const V& from, const V& to) {
         for (const FaceVerdict& v : mesh.explain({from, to}, {.sides = Sides::both}))
             if (v.face == 0) return v;
         return FaceVerdict{9, 9, Reason::apart};
     };
-    EXPECT_EQ(verdict(V(1, 1, -2), V(1, 1, 0)).reason, Reason::first_hit) << "ends on the face, which is a change of side";
+    EXPECT_EQ(verdict(V(1, 1, -2), V(1, 1, 0)).reason, Reason::first_hit)
+        << "ends on the face, which is a change of side";
     EXPECT_EQ(verdict(V(1, 1, 0), V(1, 1, 2)).reason, Reason::in_front) << "leaves the face to the front";
     EXPECT_EQ(verdict(V(1, 1, 2), V(1, 1, 0)).reason, Reason::in_front) << "ends on the face";
     for (const double from : {1.0, -1.0}) {

@@ -1,7 +1,7 @@
 // Segments whose one end is as far away as numbers go, or both are, on meshes of any size.
 //
-// Ends of 1e307 and more were lost on meshes narrower than a half: in units of the mesh, about its width, they overflowed.
-// The clipped segment then was its near end alone, or NaN, and no box was touched.
+// Ends of 1e307 and more were lost on meshes narrower than a half: in units of the mesh, about its width, they
+// overflowed. The clipped segment then was its near end alone, or NaN, and no box was touched.
 #include <gtest/gtest.h>
 
 #include <pierce/pierce.h>

@@ -1,6 +1,5 @@
 // A user's program that is compiled and linked with -ffast-math, which also makes the processor flush denormal numbers:
-// the library's
-// answers are the same. Ends with status 1 and a line for each that is not.
+// the library's answers are the same. Ends with status 1 and a line for each that is not.
 #include <bit>
 #include <cstdint>
 #include <cstdio>
@@ -30,7 +29,8 @@ pierce::Vec3<float> denormal(std::uint32_t x, std::uint32_t y, std::uint32_t z) 
 
 int main() {
 #if defined(__SSE2__)
-    expect((_mm_getcsr() & 0x8040) == 0x8040, "-ffast-math flushes denormals in this program (else this test shows nothing)");
+    expect((_mm_getcsr() & 0x8040) == 0x8040,
+           "-ffast-math flushes denormals in this program (else this test shows nothing)");
 #endif
     const std::vector<pierce::Vec3<float>> corners = {denormal(0, 0, 4), denormal(400, 0, 4), denormal(0, 400, 4)};
     const std::vector<pierce::IndexTriple> triangles = {{0, 1, 2}};

@@ -1,6 +1,5 @@
 // No chain of steps gets from the front of a closed surface to its back without a hit, not through an edge and not
-// through a vertex;
-// and the experiment that says why hits and crossings follow two rules, which must not be mixed.
+// through a vertex; and the experiment that says why hits and crossings follow two rules, which must not be mixed.
 #include <gtest/gtest.h>
 #include <exact/crossing.h>
 #include <exact/decide.h>
@@ -82,7 +81,8 @@ TYPED_TEST(Leaks, none_from_any_vertex_edge_or_face_in_any_octant) {
                                     const V to = from + V(dx, dy, dz);
                                     if (!poly.strictly_inside(to)) continue;
                                     ++into;
-                                    ASSERT_TRUE(mesh.any_hit({(from + shift).cast<TypeParam>(), (to + shift).cast<TypeParam>()}))
+                                    ASSERT_TRUE(mesh.any_hit(
+                                        {(from + shift).cast<TypeParam>(), (to + shift).cast<TypeParam>()}))
                                         << from.transpose() << " -> " << to.transpose();
                                 }
                     }
@@ -91,8 +91,7 @@ TYPED_TEST(Leaks, none_from_any_vertex_edge_or_face_in_any_octant) {
 }
 
 // Where both sides count: what ends inside was hit on the way in, and what starts inside on the way out, also if it
-// only comes to rest on
-// the surface. Leaks::none_from_any... tried with fronts alone never saw a passage from the back.
+// only comes to rest on the surface. Leaks::none_from_any... tried with fronts alone never saw a passage from the back.
 TYPED_TEST(Leaks, none_either_way_where_both_sides_count) {
     std::int64_t in = 0;
     std::int64_t out = 0;
@@ -112,8 +111,9 @@ TYPED_TEST(Leaks, none_either_way_where_both_sides_count) {
                                     const bool inside = poly.strictly_inside(from);
                                     if (poly.strictly_inside(to) == inside) continue;
                                     ++(inside ? out : in);
-                                    ASSERT_TRUE(mesh.any_hit({(from + shift).cast<TypeParam>(), (to + shift).cast<TypeParam>()},
-                                                             {.sides = Sides::both}))
+                                    ASSERT_TRUE(
+                                        mesh.any_hit({(from + shift).cast<TypeParam>(), (to + shift).cast<TypeParam>()},
+                                                     {.sides = Sides::both}))
                                         << from.transpose() << " -> " << to.transpose();
                                 }
         }
@@ -122,8 +122,7 @@ TYPED_TEST(Leaks, none_either_way_where_both_sides_count) {
 }
 
 // The rules on 1.2 million steps of lattice walks around random polycubes. A walk starts outside and goes wherever the
-// rule
-// sees no hit. `mixed` takes half-open plane sides from the first rule and tie-broken edges from the second.
+// rule sees no hit. `mixed` takes half-open plane sides from the first rule and tie-broken edges from the second.
 enum class Rule { closed, both, translated, mixed };
 
 bool hit(const detail::Path& path, const detail::Corners& corners, Rule rule) {
@@ -167,7 +166,8 @@ std::int64_t leaks_in_lattice_walks(Rule rule) {
             const bool stopped = std::any_of(triangles.begin(), triangles.end(), [&](const detail::Corners& c) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     const auto at = static_cast<int>(k);
-                    if (std::min({c[0][k], c[1][k], c[2][k]}) > high[at] || std::max({c[0][k], c[1][k], c[2][k]}) < low[at])
+                    if (std::min({c[0][k], c[1][k], c[2][k]}) > high[at] ||
+                        std::max({c[0][k], c[1][k], c[2][k]}) < low[at])
                         return false;
                 }
                 return hit(path, c, rule);

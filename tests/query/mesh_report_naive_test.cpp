@@ -180,10 +180,10 @@ detail::TJunctionCounters counters_of(const TriangleSoup<double>& soup, std::siz
     return counters;
 }
 
-// 4,000 triangles that share nothing took ten seconds: each border vertex was compared with all edges whose boxes
-// held it. A tree that is asked along the edge measures few, whatever the edges' lengths. Boxes that it looks at on
-// the way: for short edges as many as the tree is deep, for edges as long as the mesh the cube root of the vertices,
-// or the square root in a plane.
+// 4,000 triangles that share nothing took ten seconds: each border vertex was compared with all edges whose boxes held
+// it. A tree that is asked along the edge measures few, whatever the edges' lengths. Boxes that it looks at on the way:
+// for short edges as many as the tree is deep, for edges as long as the mesh the cube root of the vertices, or the
+// square root in a plane.
 TEST(MeshReportNaive, borders_cost_what_they_pass) {
     struct Case {
         double size;     ///< of a triangle

@@ -9,6 +9,10 @@ namespace {
 
 using V = Vec3<double>;
 
+TriangleSoup<double> tetrahedron(const V& a, const V& b, const V& c, const V& d) {
+    return {{a, b, c, d}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}, {}};
+}
+
 template <class Scalar>
 MeshReport report(const TriangleSoup<Scalar>& soup) {
     return CollisionMesh<Scalar>(soup.view()).mesh_report();
@@ -18,8 +22,8 @@ TEST(MeshReport, finds_nothing_in_a_closed_surface) {
     for (const MeshReport& r : {report(bumpy_sphere(8)), report(moved<float>(bowl(8), 1, V(0, 0, 0)))}) {
         EXPECT_TRUE(r.closed());
         EXPECT_EQ(r.components, 1U);
-        EXPECT_EQ(r.border_edges + r.non_manifold_edges + r.misoriented_edges + r.non_manifold_vertices + r.t_junctions +
-                      r.zero_area + r.duplicates,
+        EXPECT_EQ(r.border_edges + r.non_manifold_edges + r.misoriented_edges + r.non_manifold_vertices +
+                      r.t_junctions + r.zero_area + r.duplicates,
                   0U);
         EXPECT_EQ(r.to_string(), "closed: nothing gets through; 1 component\n");
     }
@@ -39,14 +43,7 @@ TEST(MeshReport, counts_borders_and_components) {
 }
 
 TEST(MeshReport, sees_a_seam_of_equal_coordinates_as_closed) {
-    TriangleSoup<double> apart;
-    const TriangleSoup<double> sphere = bumpy_sphere(4);
-    for (const IndexTriple& t : sphere.triangles) {
-        const auto first = static_cast<std::uint32_t>(apart.positions.size());
-        for (const std::uint32_t v : t) apart.positions.push_back(sphere.positions[v] + V(0.0, -0.0, 0.0));
-        apart.triangles.push_back({first, first + 1, first + 2});
-    }
-    EXPECT_TRUE(report(apart).closed());
+    EXPECT_TRUE(report(apart(moved<double>(bumpy_sphere(4), 1, V(0.0, -0.0, 0.0)))).closed());
 }
 
 TEST(MeshReport, names_a_turned_face_a_third_wing_and_a_double) {
@@ -59,7 +56,8 @@ TEST(MeshReport, names_a_turned_face_a_third_wing_and_a_double) {
 
     soup = bumpy_sphere(2);
     soup.positions.push_back(V(5, 5, 5));
-    soup.triangles.push_back({soup.triangles[0][0], soup.triangles[0][1], static_cast<std::uint32_t>(soup.positions.size() - 1)});
+    soup.triangles.push_back(
+        {soup.triangles[0][0], soup.triangles[0][1], static_cast<std::uint32_t>(soup.positions.size() - 1)});
     r = report(soup);
     EXPECT_EQ(r.non_manifold_edges, 1U);
     EXPECT_EQ(r.misoriented_edges, 1U);
@@ -79,12 +77,8 @@ TEST(MeshReport, names_a_vertex_where_fans_touch) {
     // Two tetrahedra that share one vertex, by coordinates.
     TriangleSoup<double> soup;
     for (double s : {1.0, -1.0}) {
-        const auto first = static_cast<std::uint32_t>(soup.positions.size());
-        for (const V& p : {V(0, 0, 0), V(s, 0, 0), V(0, s, 0), V(0, 0, s)}) soup.positions.push_back(p);
-        for (IndexTriple t : {IndexTriple{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}) {
-            if (s < 0) std::swap(t[1], t[2]);
-            soup.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-        }
+        const auto one = tetrahedron(V(0, 0, 0), V(s, 0, 0), V(0, s, 0), V(0, 0, s));
+        append(soup, s < 0 ? turned_inside_out(one) : one);
     }
     const MeshReport r = report(soup);
     EXPECT_TRUE(r.closed());
@@ -120,11 +114,8 @@ TEST(MeshReport, counts_a_vertex_with_three_fans_once) {
     // Three tetrahedra that touch in the origin only.
     TriangleSoup<double> soup;
     for (const double turn : {0.0, 2.0, 4.0}) {
-        const auto first = static_cast<std::uint32_t>(soup.positions.size());
         const auto arm = [&](double angle, double z) { return V(std::cos(turn + angle), std::sin(turn + angle), z); };
-        for (const V& p : {V(0, 0, 0), arm(0, 0), arm(1, 0), arm(0.5, 1)}) soup.positions.push_back(p);
-        for (const IndexTriple& t : {IndexTriple{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})
-            soup.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+        append(soup, tetrahedron(V(0, 0, 0), arm(0, 0), arm(1, 0), arm(0.5, 1)));
     }
     const MeshReport r = report(soup);
     EXPECT_EQ(r.components, 3U);

@@ -94,7 +94,8 @@ TEST(Naive, uses_what_is_tested) {
     const char* broadphase = std::getenv("PIERCE_BROADPHASE");
     const MeshStatistics statistics = CollisionMesh<float>(MeshView<float>{}).statistics();
     EXPECT_EQ(statistics.backend, backend != nullptr ? backend : detail::backends().front()->name);
-    EXPECT_EQ(statistics.broadphase == Broadphase::grid, broadphase != nullptr && std::string_view(broadphase) == "grid");
+    EXPECT_EQ(statistics.broadphase == Broadphase::grid,
+              broadphase != nullptr && std::string_view(broadphase) == "grid");
 }
 
 }  // namespace

@@ -2,8 +2,7 @@
 // moved.
 //
 // On polycubes every plane is parallel to an axis, its normal has one component, and the tie rule of planes, the sign
-// of
-// normal . (e, e^2, e^3), can take the components in any order: code that took them backwards passed all tests. Here
+// of normal . (e, e^2, e^3), can take the components in any order: code that took them backwards passed all tests. Here
 // are tetrahedra, octahedra and sheared boxes with whole-numbered corners, which share corners and planes, and single
 // triangles.
 #include <algorithm>
@@ -146,8 +145,9 @@ std::array<L, 2> special_segment(const std::vector<T>& triangles, Random& random
         return {L{sum[0] / 2, sum[1] / 2, sum[2] / 2}, p};
     }
     if (random.chance(0.3)) return {p, special_point(triangles, random)};
-    const L d = random.chance(0.3) ? L(random.between_ints(1, 9) * L{random.between_ints(-1, 1), random.between_ints(-1, 1), 1})
-                                   : lattice_point(random, 9);
+    const L d = random.chance(0.3)
+                    ? L(random.between_ints(1, 9) * L{random.between_ints(-1, 1), random.between_ints(-1, 1), 1})
+                    : lattice_point(random, 9);
     if (in_reach(p - d) && in_reach(p + d)) return {p - d, p + d};
     return {p, lattice_point(random, 9)};
 }
@@ -160,7 +160,8 @@ struct Placed {
 
     [[nodiscard]] Vec3<Scalar> operator()(const L& p) const {
         Vec3<Scalar> v;
-        for (int k = 0; k < 3; ++k) v[k] = scale * static_cast<Scalar>(p[static_cast<std::size_t>(k)]) + offset * Scalar(k - 1);
+        for (int k = 0; k < 3; ++k)
+            v[k] = scale * static_cast<Scalar>(p[static_cast<std::size_t>(k)]) + offset * Scalar(k - 1);
         return v;
     }
     [[nodiscard]] TriangleSoup<Scalar> soup(const std::vector<T>& triangles) const {
@@ -193,7 +194,8 @@ void closed_solids(const Placed<Scalar>& place, int scenes, std::uint64_t seed) 
             ++segments;
             changes += to != from ? 1 : 0;
             if (k % 10 != 0) continue;
-            ASSERT_EQ(mesh.winding_number(place(p)), from) << place(p).transpose() << ", scene " << i << " of seed " << seed;
+            ASSERT_EQ(mesh.winding_number(place(p)), from)
+                << place(p).transpose() << ", scene " << i << " of seed " << seed;
             ASSERT_EQ(mesh.contains(place(p)), from != 0);
         }
     }

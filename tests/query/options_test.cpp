@@ -14,10 +14,7 @@ using V = Vec3<double>;
 // Ten floors, one above the other; floor i is at height i.
 TriangleSoup<double> floors() {
     TriangleSoup<double> soup;
-    for (std::uint32_t i = 0; i < 10; ++i) {
-        for (const V& p : {V(0, 0, i), V(4, 0, i), V(0, 4, i)}) soup.positions.push_back(p);
-        soup.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-    }
+    for (int i = 0; i < 10; ++i) add_triangle(soup, V(0, 0, i), V(4, 0, i), V(0, 4, i));
     return soup;
 }
 
@@ -74,13 +71,16 @@ TEST(Options, all_at_once_agree_with_the_naive_twin) {
     const NaiveMesh<float> naive(soup.view());
     const Extent<float> extent(soup.view());
     Random random(8);
-    const auto accept = [](const Contact& contact) { return contact.triangle % 3 != 0 || contact.feature != Feature::face; };
+    const auto accept = [](const Contact& contact) {
+        return contact.triangle % 3 != 0 || contact.feature != Feature::face;
+    };
     int hits = 0;
     for (int i = 0; i < 5000; ++i) {
         const Segment<float> segment = mixed_segment(soup.view(), extent, random);
         std::vector<std::uint8_t> mask(soup.triangles.size() - 5);
         for (auto& m : mask) m = random.chance(0.7) ? 1 : 0;
-        const QueryOptions options{.sides = Sides::both, .max_fraction = random.unit() * 1.2, .face_mask = mask, .accept = accept};
+        const QueryOptions options{
+            .sides = Sides::both, .max_fraction = random.unit() * 1.2, .face_mask = mask, .accept = accept};
         const auto hit = mesh.first_hit(segment, options);
         ASSERT_TRUE(same_answer(hit, naive.first_hit(segment, options))) << to_text(segment);
         hits += hit ? 1 : 0;
@@ -98,10 +98,8 @@ Reason reason_for(const std::vector<FaceVerdict>& verdicts, std::uint32_t face) 
 TEST(Explain, gives_each_face_its_reason) {
     TriangleSoup<double> soup;
     const auto add = [&](const V& a, const V& b, const V& c) {
-        const auto first = static_cast<std::uint32_t>(soup.positions.size());
-        for (const V& p : {a, b, c}) soup.positions.push_back(p);
-        soup.triangles.push_back({first, first + 1, first + 2});
-        return first / 3;
+        add_triangle(soup, a, b, c);
+        return static_cast<std::uint32_t>(soup.triangles.size() - 1);
     };
     const V x(4, 0, 0);
     const V y(0, 4, 0);
@@ -121,7 +119,8 @@ TEST(Explain, gives_each_face_its_reason) {
     std::vector<std::uint8_t> mask(soup.triangles.size(), 1);
     mask[masked_face] = 0;
     const auto accept = [&](const Contact& contact) { return contact.face != refused; };
-    const auto verdicts = mesh.explain({V(1, 1, 3), V(1, 1, -2)}, {.max_fraction = 0.8, .face_mask = mask, .accept = accept});
+    const auto verdicts =
+        mesh.explain({V(1, 1, 3), V(1, 1, -2)}, {.max_fraction = 0.8, .face_mask = mask, .accept = accept});
     EXPECT_EQ(reason_for(verdicts, masked_face), Reason::masked);
     EXPECT_EQ(reason_for(verdicts, refused), Reason::not_accepted);
     EXPECT_EQ(reason_for(verdicts, later), Reason::later);

@@ -1,6 +1,5 @@
 // A particle that is moved to each returned point and stepped again never leaves a closed mesh: gravity and reflection
-// in a bowl,
-// 240 steps, near and far from the origin, no skin anywhere.
+// in a bowl, 240 steps, near and far from the origin, no skin anywhere.
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
 #include <support/inside_oracle.h>

@@ -1,6 +1,5 @@
 // On real meshes the grid and the naive twin give the same bits: 14 meshes, 10^5 segments each for both scalar types,
-// of all
-// lengths.
+// of all lengths.
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
 #include <support/expect_hit.h>
@@ -28,7 +27,8 @@ void compare(std::string_view name, int count, std::uint64_t seed) {
         const Segment<Scalar> segment = mixed_segment(soup.view(), extent, random);
         const QueryOptions options{.sides = std::array{Sides::front, Sides::back, Sides::both}[random.below(3)]};
         const auto hit = mesh.first_hit(segment, options);
-        ASSERT_TRUE(same_answer(hit, naive.first_hit(segment, options))) << name << ' ' << i << ": " << to_text(segment);
+        ASSERT_TRUE(same_answer(hit, naive.first_hit(segment, options)))
+            << name << ' ' << i << ": " << to_text(segment);
         ASSERT_EQ(mesh.any_hit(segment, options), hit.has_value()) << name << ' ' << i << ": " << to_text(segment);
         hits += hit ? 1 : 0;
         featured += hit && hit->feature != Feature::face ? 1 : 0;
@@ -36,7 +36,8 @@ void compare(std::string_view name, int count, std::uint64_t seed) {
         const std::size_t total = mesh.all_hits(segment, all, options);
         ASSERT_EQ(total, naive.all_hits(segment, expected, options)) << name << ' ' << i << ": " << to_text(segment);
         for (std::size_t k = 0; k < std::min(total, all.size()); ++k)
-            ASSERT_TRUE(same_bits(all[k], expected[k])) << name << ' ' << i << ", hit " << k << ": " << to_text(segment);
+            ASSERT_TRUE(same_bits(all[k], expected[k]))
+                << name << ' ' << i << ", hit " << k << ": " << to_text(segment);
     }
     std::cout << name << ": " << soup.triangles.size() << " triangles, " << count << " segments, " << hits << " hits, "
               << featured << " on edges and vertices\n";

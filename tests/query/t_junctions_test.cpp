@@ -27,8 +27,7 @@ std::size_t t_junctions(const TriangleSoup<double>& soup) {
 }
 
 // A vertex exactly in the middle of an edge, on a lattice of `unit`: among denormal doubles the allowance for rounding
-// underflowed
-// to zero, lengths were divided by it, and no T-junction was found below 1e-307.
+// underflowed to zero, lengths were divided by it, and no T-junction was found below 1e-307.
 template <class Scalar>
 void exact_at_all_sizes(std::initializer_list<double> units) {
     for (const double unit : units) {
@@ -54,10 +53,8 @@ TEST(TJunctions, are_found_on_edges_far_shorter_than_their_coordinates_and_far_t
 }
 
 // 2^-23 in float and 2^-52 in double times the largest coordinate, four times: what a point that was put on the edge
-// and rounded
-// stays within. (Measured over 20 million: half of it. The distance once was taken from the foot on the edge, which
-// errs by up to 5.4
-// units in double: now and then one in the middle of a long edge was missed.)
+// and rounded stays within. (Measured over 20 million: half of it. The distance once was taken from the foot on the
+// edge, which errs by up to 5.4 units in double: now and then one in the middle of a long edge was missed.)
 template <class Scalar>
 void rounded_ones(double near, double far) {
     Random random(4);
@@ -87,10 +84,8 @@ TEST(TJunctions, are_found_within_rounding_and_not_beyond) {
 }
 
 // A ladder of edges at every whole height up to 2310 = 2 x 3 x 5 x 7 x 11, so that borders between cells fall on
-// heights unless
-// there is one cell, or a number of them prime to all of these. Each edge has one vertex a hair above it, within
-// rounding,
-// and one a hair below: one of the two lies across the border, and outside of the edge's own box.
+// heights unless there is one cell, or a number of them prime to all of these. Each edge has one vertex a hair above
+// it, within rounding, and one a hair below: one of the two lies across the border, and outside of the edge's own box.
 TEST(TJunctions, a_hair_across_a_border_of_cells_are_found) {
     constexpr int k_rungs = 2310;
     TriangleSoup<double> soup;

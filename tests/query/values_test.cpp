@@ -1,6 +1,6 @@
 // The values of a hit are those of the true intersection, within the units in the last place that hit.h documents:
-// against rational
-// numbers, for float and double, on generic and on delicate pairs, whichever arithmetic they came from.
+// against rational numbers, for float and double, on generic and on delicate pairs, whichever arithmetic they came
+// from.
 #include <gtest/gtest.h>
 #include <pierce/pierce.h>
 #include <kernel/evaluate.h>
@@ -12,14 +12,6 @@ namespace pierce::test {
 namespace {
 
 using Q = RationalOracle::Q;
-
-// The distance of a value from the exact one, in steps of `Scalar` at `at`.
-template <class Scalar>
-double steps(Scalar value, const Q& exact, double at) {
-    const auto near = static_cast<Scalar>(std::abs(at));
-    const double step = double(std::nextafter(near, std::numeric_limits<Scalar>::infinity())) - double(near);
-    return std::abs(CGAL::to_double((Q(double(value)) - exact) / Q(step)));
-}
 
 template <class Scalar>
 void check_values() {
@@ -40,10 +32,12 @@ void check_values() {
         const double scale = std::array{1e-3, 1.0, 1e3}[random.below(3)];
         const Pair pair = make_pair_of<Scalar>(family, scale, offset, random);
         const auto vec = [](const detail::Point& p) { return Vec3<double>(p[0], p[1], p[2]).cast<Scalar>().eval(); };
-        const TriangleSoup<Scalar> soup{{vec(pair.corners[0]), vec(pair.corners[1]), vec(pair.corners[2])}, {{0, 1, 2}}, {}};
+        const TriangleSoup<Scalar> soup{
+            {vec(pair.corners[0]), vec(pair.corners[1]), vec(pair.corners[2])}, {{0, 1, 2}}, {}};
         const CollisionMesh<Scalar> mesh(soup.view());
         QueryCounters counters;
-        const auto hit = mesh.first_hit({vec(pair.path.from), vec(pair.path.to)}, {.sides = Sides::both, .counters = &counters});
+        const auto hit =
+            mesh.first_hit({vec(pair.path.from), vec(pair.path.to)}, {.sides = Sides::both, .counters = &counters});
         const RationalOracle exact(pair.path, pair.corners);
         ASSERT_EQ(hit.has_value(), exact.hit(Sides::both)) << describe(pair);
         if (!hit) continue;
@@ -58,7 +52,7 @@ void check_values() {
                  values.normal_error <= tolerance * values.length) ++coarse;
         else ++fine;
         exact_sides += counters.exact_sides > 0 ? 1 : 0;
-        fraction = std::max(fraction, steps(hit->exact_fraction, exact.fraction(), CGAL::to_double(exact.fraction())));
+        fraction = std::max(fraction, ulps(hit->exact_fraction, exact.fraction(), CGAL::to_double(exact.fraction())));
         ASSERT_LE(Q(double(hit->fraction)), exact.fraction()) << "a lower bound: " << describe(pair);
         // Exactly 0 is what these are, not nearly.
         ASSERT_TRUE(!hit->at_start || hit->exact_fraction == 0) << describe(pair);
@@ -71,17 +65,17 @@ void check_values() {
         Vec3<double> direction;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto at = static_cast<int>(k);
-            weight = std::max(weight, steps(hit->barycentric[at], exact.weight(k), 1));
+            weight = std::max(weight, ulps(hit->barycentric[at], exact.weight(k), 1));
             ASSERT_GE(hit->barycentric[at], 0) << describe(pair);
             ASSERT_LE(hit->barycentric[at], 1) << describe(pair);
             direction[at] = exact.normal_ratio(k);
         }
         direction.normalize();
-        for (int k = 0; k < 3; ++k) normal = std::max(normal, steps(hit->normal[k], Q(direction[k]), 1));
+        for (int k = 0; k < 3; ++k) normal = std::max(normal, ulps(hit->normal[k], Q(direction[k]), 1));
     }
-    std::cout << hits << " hits; off by at most: fraction " << fraction << ", weights " << weight << ", normal " << normal
-              << " units in the last place; " << coarse << " in double, " << fine << " in double-double, " << exact_values
-              << " exact; sides of " << exact_sides << " exact\n";
+    std::cout << hits << " hits; off by at most: fraction " << fraction << ", weights " << weight << ", normal "
+              << normal << " units in the last place; " << coarse << " in double, " << fine << " in double-double, "
+              << exact_values << " exact; sides of " << exact_sides << " exact\n";
     EXPECT_GT(hits, 3000);
     EXPECT_GT(fine, 500);
     // For float few are left: those of edges and corners are known from volumes, and bounds are rarely too wide.

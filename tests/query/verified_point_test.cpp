@@ -4,10 +4,9 @@
 // What the wide kernels refused for the segment is not asked again for the way to the point: their bounds have to allow
 // for its rounding.
 // With no room for it, or where a start that lies on a plane was taken to be on one side of it because the segment's
-// end is, every other
-// test passed: random meshes have no triangles within a rounding of a segment. Here there are blades, planes through
-// two points that
-// are within some roundings of the segment, and planes through its start. The judge is the naive twin.
+// end is, every other test passed: random meshes have no triangles within a rounding of a segment. Here there are
+// blades, planes through two points that are within some roundings of the segment, and planes through its start. The
+// judge is the naive twin.
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
@@ -44,8 +43,10 @@ struct Blades {
             const Vec3<double> side = way.cross(random.direction()).normalized();
             const double width = std::exp(random.between(-8, 0));
             if (i % 3 == 0) {
-                const Vec3<double> start = segment.from.template cast<double>() + (random.chance(0.5) ? noise : 0) * random.in_cube();
-                add(start + width * side, start - width * side, start + random.between(-0.5, 0.5) * way + random.in_cube());
+                const Vec3<double> start =
+                    segment.from.template cast<double>() + (random.chance(0.5) ? noise : 0) * random.in_cube();
+                add(start + width * side, start - width * side,
+                    start + random.between(-0.5, 0.5) * way + random.in_cube());
             } else {
                 add(a, b, a + width * side + random.between(-0.3, 0.3) * way);
             }
@@ -66,7 +67,8 @@ void compare() {
     constexpr int k_rounds = 20000;
     for (int i = 0; i < k_rounds; ++i) {
         const Blades<Scalar> blades(random, std::array{0.0, 10.0, 1e3, 1e5}[random.below(4)]);
-        const CollisionMesh<Scalar> mesh(blades.soup.view(), {.cell_size = random.chance(0.5) ? 0 : std::exp(random.between(-6, 1))});
+        const CollisionMesh<Scalar> mesh(blades.soup.view(),
+                                         {.cell_size = random.chance(0.5) ? 0 : std::exp(random.between(-6, 1))});
         const NaiveMesh<Scalar> naive(blades.soup.view());
         QueryCounters counters;
         BatchOptions options;
@@ -86,19 +88,18 @@ void compare() {
 }
 
 // A large wall across the way, in a level of its own, and in front of it a row of small triangles that begins right
-// beside the segment; a cell of
-// theirs is six units in the last place of the coordinates. The segment passes by the box of their level, the way to
-// its rounded point
-// does not. That level was not asked at all, and the other one's triangles were taken for all that could be in the way:
-// one point of
-// twenty was behind the row.
+// beside the segment; a cell of theirs is six units in the last place of the coordinates. The segment passes by the box
+// of their level, the way to its rounded point does not. That level was not asked at all, and the other one's triangles
+// were taken for all that could be in the way: one point of twenty was behind the row.
 template <class Scalar>
 void pass_by_a_level(double far, double unit) {
     Random random(3);
     int hits = 0;
     for (int i = 0; i < 1000; ++i) {
         TriangleSoup<Scalar> soup;
-        const auto point = [&](const Vec3<double>& p) -> Vec3<Scalar> { return ((p * unit).array() + far).matrix().template cast<Scalar>(); };
+        const auto point = [&](const Vec3<double>& p) -> Vec3<Scalar> {
+            return ((p * unit).array() + far).matrix().template cast<Scalar>();
+        };
         const auto add = [&](const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c) {
             const auto first = static_cast<std::uint32_t>(soup.positions.size());
             for (const Vec3<double>& p : {a, b, c}) soup.positions.push_back(point(p));
@@ -115,8 +116,9 @@ void pass_by_a_level(double far, double unit) {
         for (int q = 0; q < 8; ++q) {
             const double a = random.between_ints(20, 90);
             const double b = random.between_ints(50, 90);
-            const Segment<Scalar> segment = {point({-a, a - random.between_ints(0, 3), random.between_ints(-2, 2) * 1.0}),
-                                             point({b, -b - random.between_ints(0, 3), random.between_ints(-2, 2) * 1.0})};
+            const Segment<Scalar> segment = {
+                point({-a, a - random.between_ints(0, 3), random.between_ints(-2, 2) * 1.0}),
+                point({b, -b - random.between_ints(0, 3), random.between_ints(-2, 2) * 1.0})};
             BatchOptions options;
             options.sides = Sides::both;
             const auto expected = naive.first_hit(segment, options);

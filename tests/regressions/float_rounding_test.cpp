@@ -1,14 +1,11 @@
 // GCC 12.2 at -O2 compiles double(float(x)) for two neighbouring coordinates into nothing: its straight-line vectorizer
-// pairs the two
-// conversions there and back, and folds the pair away, rounding included. The third coordinate, left scalar, is
-// rounded.
+// pairs the two conversions there and back, and folds the pair away, rounding included. The third coordinate, left
+// scalar, is rounded.
 //
 // What it broke: the "float" pairs that the decisions test makes had coordinates that no float has. The same pattern
-// stands in
-// place.h, where it would prove one point clear and return another, off by half a unit in the last place (6e-8 of the
-// coordinate). It does not matter whether the values come from Eigen or from an array. Clang and GCC's loop vectorizer
-// are not
-// affected. CMakeLists.txt turns the other one off.
+// stands in place.h, where it would prove one point clear and return another, off by half a unit in the last place
+// (6e-8 of the coordinate). It does not matter whether the values come from Eigen or from an array. Clang and GCC's
+// loop vectorizer are not affected. CMakeLists.txt turns the other one off.
 #include <gtest/gtest.h>
 #include <query/place.h>
 

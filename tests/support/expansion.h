@@ -1,6 +1,5 @@
 // orient3d by floating-point expansions (Shewchuk 1997, sections 2.3 to 2.8), without adaptivity: a second opinion for
-// the exact room, and
-// what it is measured against. Right only while nothing overflows or underflows.
+// the exact room, and what it is measured against. Right only while nothing overflows or underflows.
 #pragma once
 
 #include <array>
@@ -44,7 +43,8 @@ inline Expansion<2> difference(double a, double b) {
 template <int N, int M>
 Expansion<N + M> sum(const Expansion<N>& e, const Expansion<M>& f) {
     Expansion<N + M> out;
-    for (int i = 0; i < e.count; ++i) out.term[static_cast<std::size_t>(out.count++)] = e.term[static_cast<std::size_t>(i)];
+    for (int i = 0; i < e.count; ++i)
+        out.term[static_cast<std::size_t>(out.count++)] = e.term[static_cast<std::size_t>(i)];
     for (int j = 0; j < f.count; ++j) {
         Expansion<N + M> next;
         double q = f.term[static_cast<std::size_t>(j)];
@@ -99,7 +99,8 @@ inline int side_by_expansions(const detail::Corners& c, const detail::Point& x) 
     const auto minor = [&](std::size_t i, std::size_t j) {
         return sum(product(d[1][i], d[2][j]), negated(product(d[1][j], d[2][i])));
     };
-    const auto total = sum(sum(product(minor(1, 2), d[0][0]), product(minor(2, 0), d[0][1])), product(minor(0, 1), d[0][2]));
+    const auto total =
+        sum(sum(product(minor(1, 2), d[0][0]), product(minor(2, 0), d[0][1])), product(minor(0, 1), d[0][2]));
     return -total.sign();
 }
 

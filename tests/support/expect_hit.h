@@ -21,10 +21,10 @@ bool same_bits(const Vec3<Scalar>& x, const Vec3<Scalar>& y) {
 
 template <class Scalar>
 bool same_bits(const Hit<Scalar>& x, const Hit<Scalar>& y) {
-    return bits(x.fraction) == bits(y.fraction) && same_bits(x.point, y.point) && same_bits(x.position, y.position) && same_bits(x.normal, y.normal) &&
-           same_bits(x.barycentric, y.barycentric) && bits(x.exact_fraction) == bits(y.exact_fraction) &&
-           x.face == y.face && x.triangle == y.triangle && x.side == y.side && x.feature == y.feature &&
-           x.feature_index == y.feature_index && x.at_start == y.at_start;
+    return bits(x.fraction) == bits(y.fraction) && same_bits(x.point, y.point) && same_bits(x.position, y.position) &&
+           same_bits(x.normal, y.normal) && same_bits(x.barycentric, y.barycentric) &&
+           bits(x.exact_fraction) == bits(y.exact_fraction) && x.face == y.face && x.triangle == y.triangle &&
+           x.side == y.side && x.feature == y.feature && x.feature_index == y.feature_index && x.at_start == y.at_start;
 }
 
 template <class Scalar>

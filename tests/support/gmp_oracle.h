@@ -1,6 +1,5 @@
 // A judge for millions of decisions: the rule by determinants of exact integers in GMP. Rational arithmetic on
-// coordinates that are all
-// multiples of one power of two, with that power divided out.
+// coordinates that are all multiples of one power of two, with that power divided out.
 #pragma once
 
 #include <algorithm>

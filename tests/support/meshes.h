@@ -24,12 +24,37 @@ TriangleSoup<Scalar> moved(const TriangleSoup<double>& soup, double scale, const
     return out;
 }
 
+/// In the plane z = 0, its front up: a right angle at the origin, legs of 4 along x and y.
+inline TriangleSoup<double> corner_triangle() {
+    return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}, {}};
+}
+
 /// One more triangle, with corners of its own.
 template <class Scalar>
 void add_triangle(TriangleSoup<Scalar>& soup, const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c) {
     const auto first = static_cast<std::uint32_t>(soup.positions.size());
     for (const Vec3<double>& p : {a, b, c}) soup.positions.push_back(p.cast<Scalar>());
     soup.triangles.push_back({first, first + 1, first + 2});
+}
+
+/// Both meshes as one: the vertices and triangles of `more` come after those of `soup`. Neither has numbered faces.
+template <class Scalar>
+void append(TriangleSoup<Scalar>& soup, const TriangleSoup<Scalar>& more) {
+    const auto first = static_cast<std::uint32_t>(soup.positions.size());
+    soup.positions.insert(soup.positions.end(), more.positions.begin(), more.positions.end());
+    for (const IndexTriple& t : more.triangles) soup.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+}
+
+/// As an STL file gives them: each triangle with vertices of its own.
+template <class Scalar>
+TriangleSoup<Scalar> apart(const TriangleSoup<Scalar>& soup) {
+    TriangleSoup<Scalar> out;
+    for (const IndexTriple& t : soup.triangles) {
+        const auto first = static_cast<std::uint32_t>(out.positions.size());
+        for (const std::uint32_t v : t) out.positions.push_back(soup.positions[v]);
+        out.triangles.push_back({first, first + 1, first + 2});
+    }
+    return out;
 }
 
 template <class Scalar>
@@ -39,8 +64,7 @@ TriangleSoup<Scalar> turned_inside_out(TriangleSoup<Scalar> soup) {
 }
 
 /// A closed surface around the origin, of 8 n^2 triangles facing outwards: an octahedron, divided n times along each
-/// edge, whose
-/// point in direction d is put at d * radius(d).
+/// edge, whose point in direction d is put at d * radius(d).
 template <class Radius>
 TriangleSoup<double> star(int n, Radius&& radius) {
     TriangleSoup<double> soup;
@@ -93,8 +117,7 @@ inline TriangleSoup<double> bowl(int n) {
 }
 
 /// A random set of unit cubes within size^3 and its boundary, scaled by `edge`: closed, on a lattice, full of coplanar
-/// faces, with edges
-/// and vertices that more than two faces meet in. The diagonal of each square is random.
+/// faces, with edges and vertices that more than two faces meet in. The diagonal of each square is random.
 struct Polycube {
     Polycube(int cubes, double filled, int edge_length, std::uint64_t seed) : size(cubes), edge(edge_length) {
         Random random(seed);
@@ -185,11 +208,8 @@ inline TriangleSoup<double> shards(std::size_t count, std::uint64_t seed) {
         const double size = std::exp(random.between(-7, 0.5));
         const double thin = random.chance(0.3) ? 1e-6 : 1;
         const Vec3<double> e = size * random.direction();
-        const auto first = static_cast<std::uint32_t>(soup.positions.size());
-        soup.positions.push_back(a);
-        soup.positions.push_back(a + e);
-        soup.positions.push_back(a + random.unit() * e + thin * size * random.direction());
-        soup.triangles.push_back({first, first + 1, first + 2});
+        const Vec3<double> c = a + random.unit() * e + thin * size * random.direction();
+        add_triangle(soup, a, a + e, c);
     }
     return soup;
 }

@@ -1,14 +1,11 @@
 // Crossings judged by really moving the ends: not by an infinitesimal (e, e^2, e^3) but by the one with e = 2^-14,
-// which for small
-// integer coordinates is small enough to act the same. Plain signs of determinants in 128 bits; a tie is an error.
+// which for small integer coordinates is small enough to act the same. Plain signs of determinants in 128 bits; a tie
+// is an error.
 //
 // Coordinates up to 32 in magnitude; lengths are in units of 2^-42, so that the move is (2^28, 2^14, 1). A determinant
-// is its value V
-// for the ends as they are, times 2^42, plus w . (2^28, 2^14, 1), where w is a cross product of two differences: whole
-// numbers of
-// magnitude at most 2 * 64^2 = 2^13. So 2^14 of the next component can't outweigh one of this, nor the rest V: the sign
-// is that
-// of the first that is not zero, as for the infinitesimal move.
+// is its value V for the ends as they are, times 2^42, plus w . (2^28, 2^14, 1), where w is a cross product of two
+// differences: whole numbers of magnitude at most 2 * 64^2 = 2^13. So 2^14 of the next component can't outweigh one of
+// this, nor the rest V: the sign is that of the first that is not zero, as for the infinitesimal move.
 #pragma once
 
 #include <array>
@@ -29,7 +26,9 @@ class MovedOracle {
     }
 
     /// The side that the moved point is on: +1 in front, -1 behind. For a triangle with an area.
-    static int side(const Triangle& t, const LatticePoint& p) { return sign(volume(at(t[0]), at(t[1]), at(t[2]), moved(p))); }
+    static int side(const Triangle& t, const LatticePoint& p) {
+        return sign(volume(at(t[0]), at(t[1]), at(t[2]), moved(p)));
+    }
 
     /// +1 if the moved segment passes from front to back, -1 if from back to front, 0 if not at all.
     static int crossing(const Triangle& t, const LatticePoint& p, const LatticePoint& q) {
@@ -67,8 +66,7 @@ class MovedOracle {
         return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
     }
     // Of a, b, c, d; positive with d in front of a, b, c. b - a, of two points that are both moved or both not, is
-    // taken in
-    // whole units: below 2^7 x 2^98 x 3, which fits.
+    // taken in whole units: below 2^7 x 2^98 x 3, which fits.
     static Wide volume(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
         Vector unit = minus(b, a);
         for (Wide& x : unit) x /= Wide{1} << 42;

@@ -1,6 +1,5 @@
 // The naive twin of CollisionMesh: the same interface with no grid and no filter. Every triangle is decided in exact
-// arithmetic; the
-// only shortcut compares the boxes of segment and triangle, which no rounding can touch.
+// arithmetic; the only shortcut compares the boxes of segment and triangle, which no rounding can touch.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include <query/place.h>
 #include <query/report.h>
 #include <query/values.h>
+#include <support/boxes.h>
 
 namespace pierce::test {
 
@@ -73,14 +73,6 @@ class NaiveMesh {
         return {detail::to_point(segment.from), detail::to_point(segment.to)};
     }
 
-    static bool apart(const detail::Path& path, const detail::Corners& c) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (std::max(path.from[k], path.to[k]) < std::min({c[0][k], c[1][k], c[2][k]})) return true;
-            if (std::min(path.from[k], path.to[k]) > std::max({c[0][k], c[1][k], c[2][k]})) return true;
-        }
-        return false;
-    }
-
     [[nodiscard]] int order(const detail::Path& path, std::uint32_t x, std::uint32_t y) const {
         return detail::compare_fractions(path, corners_[x], corners_[y]);
     }
@@ -89,10 +81,11 @@ class NaiveMesh {
     [[nodiscard]] std::vector<Found> hits(const detail::Path& path, const QueryOptions& options) const {
         std::vector<Found> found;
         for (std::uint32_t i = 0; i < corners_.size(); ++i) {
-            if (apart(path, corners_[i])) continue;
+            if (boxes_apart(path, corners_[i])) continue;
             const detail::Decision decision = detail::decide(path, corners_[i], options.sides);
             if (!decision.hit || !detail::fraction_at_most(path, corners_[i], options.max_fraction)) continue;
-            if (!options.face_mask.empty() && (faces_[i] >= options.face_mask.size() || options.face_mask[faces_[i]] == 0))
+            if (!options.face_mask.empty() &&
+                (faces_[i] >= options.face_mask.size() || options.face_mask[faces_[i]] == 0))
                 continue;
             if (options.accept) {
                 QueryCounters unused;
@@ -100,7 +93,7 @@ class NaiveMesh {
                 detail::measure_path<Scalar>(corners_[i], path, measured);
                 const detail::Measures m = detail::fine_measures(narrow(), measured, path, decision, unused);
                 if (!options.accept({faces_[i], i, decision.side, decision.feature, decision.feature_index,
-                                     decision.at_start, m.fraction, {m.barycentric[0], m.barycentric[1], m.barycentric[2]}}))
+                                     decision.at_start, m.fraction, barycentric}))
                     continue;
             }
             found.push_back({i, decision});

@@ -1,6 +1,9 @@
 // Two independent judges of the decision contract: CGAL's exact predicates, and rational arithmetic on another formula.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Gmpq.h>
 #include <CGAL/intersections.h>
@@ -10,8 +13,7 @@
 namespace pierce::test {
 
 /// The rule by CGAL 5.5, exact predicates on doubles. For a triangle of area zero or a segment of length zero CGAL's
-/// answers are
-/// undefined: `defined` says whether the pair is neither.
+/// answers are undefined: `defined` says whether the pair is neither.
 class CgalOracle {
   public:
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -37,8 +39,7 @@ class CgalOracle {
 };
 
 /// The rule by construction in rational numbers: the point where the line meets the plane, and its barycentric
-/// coordinates in
-/// the projection along the largest component of the normal. Total, and slow.
+/// coordinates in the projection along the largest component of the normal. Total, and slow.
 class RationalOracle {
   public:
     using Q = CGAL::Gmpq;
@@ -107,5 +108,13 @@ class RationalOracle {
     std::array<Q, 3> weight_;
     bool pierces_ = false;
 };
+
+/// The distance of a value from the exact one, in units in the last place of `at`.
+template <class Scalar>
+double ulps(Scalar value, const RationalOracle::Q& exact, double at) {
+    const auto near = static_cast<Scalar>(std::abs(at));
+    const double ulp = double(std::nextafter(near, std::numeric_limits<Scalar>::infinity())) - double(near);
+    return std::abs(CGAL::to_double((RationalOracle::Q(double(value)) - exact) / RationalOracle::Q(ulp)));
+}
 
 }  // namespace pierce::test

@@ -30,8 +30,7 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Family::count)> 
     "random", "at_edge", "at_vertex", "coplanar", "touching", "sliver", "lattice", "degenerate", "near_parallel"};
 
 /// The same shape everywhere: made around the origin at size 1, scaled, shifted by `offset` along a random direction,
-/// then every
-/// coordinate is rounded to `Scalar`.
+/// then every coordinate is rounded to `Scalar`.
 template <class Scalar>
 Pair make_pair_of(Family family, double scale, double offset, Random& random) {
     using V = Vec3<double>;

@@ -18,7 +18,9 @@ class Random {
     double between(double low, double high) { return low + (high - low) * unit(); }
     /// Uniform in 0 .. count - 1, but for a bias below count / 2^64.
     std::size_t below(std::size_t count) { return static_cast<std::size_t>(engine_() % count); }
-    int between_ints(int low, int high) { return low + static_cast<int>(below(static_cast<std::size_t>(high - low + 1))); }
+    int between_ints(int low, int high) {
+        return low + static_cast<int>(below(static_cast<std::size_t>(high - low + 1)));
+    }
     bool chance(double p) { return unit() < p; }
     /// Uniform in the cube [-1, 1)^3.
     Vec3<double> in_cube() {

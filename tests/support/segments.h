@@ -27,10 +27,8 @@ struct Extent {
 };
 
 /// One segment of a mixture: lengths from a ten-thousandth of the diagonal to twice the diagonal; a third each aimed at
-/// a point in a
-/// face, at one on an edge or vertex (as exactly as coordinates allow), and placed anywhere in the box; some end
-/// exactly on their
-/// target, some start there, some are parallel to an axis or lie in the plane of a face.
+/// a point in a face, at one on an edge or vertex (as exactly as coordinates allow), and placed anywhere in the box;
+/// some end exactly on their target, some start there, some are parallel to an axis or lie in the plane of a face.
 template <class Scalar>
 Segment<Scalar> mixed_segment(const MeshView<Scalar>& mesh, const Extent<Scalar>& extent, Random& random) {
     const double length = extent.diagonal() * std::exp(random.between(std::log(1e-4), std::log(2.0)));

@@ -21,7 +21,9 @@ inline mpz_class whole(double x, int places) {
     EXPECT_EQ(((z >> static_cast<mp_bitcnt_t>(-shift)) << static_cast<mp_bitcnt_t>(-shift)), z) << x;
     return z >> static_cast<mp_bitcnt_t>(-shift);
 }
-inline mpz_class whole(const detail::DoubleDouble& x, int places) { return whole(x.high, places) + whole(x.low, places); }
+inline mpz_class whole(const detail::DoubleDouble& x, int places) {
+    return whole(x.high, places) + whole(x.low, places);
+}
 
 // The error of x in units of `bound`: z 2^-places is what x should be.
 template <class Number>

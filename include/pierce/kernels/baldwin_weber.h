@@ -1,19 +1,22 @@
-// Baldwin and Weber's test: the affine map that takes the triangle to (0,0,0), (1,0,0), (0,1,0), as twelve numbers or as nine.
+// Baldwin and Weber's test: the affine map that takes the triangle to (0,0,0), (1,0,0), (0,1,0), as twelve numbers or
+// as nine.
 //
-// Source: Baldwin and Weber 2016, "Fast Ray-Triangle Intersections by Coordinate Transformation", sections 2 and 3. Our derivation of the
-// inverse: every point is p = a + u E1 + v E2 + w f, with E1 = b - a, E2 = c - a, and a "free vector" f that only must not lie in
-// the plane. Multiplying p - a by E2 x f removes E2 and f, by f x E1 removes E1 and f, by n = E1 x E2 removes E1 and E2:
+// Source: Baldwin and Weber 2016, "Fast Ray-Triangle Intersections by Coordinate Transformation", sections 2 and 3. Our
+// derivation of the inverse: every point is p = a + u E1 + v E2 + w f, with E1 = b - a, E2 = c - a, and a "free vector"
+// f that only must not lie in the plane. Multiplying p - a by E2 x f removes E2 and f, by f x E1 removes E1 and f, by
+// n = E1 x E2 removes E1 and E2:
 //   u = (E2 x f) . (p - a) / n.f      v = (f x E1) . (p - a) / n.f      w = n . (p - a) / n.f
-// Let k be the axis of n's largest component, (k, i, j) the axes in cyclic order, and s the sign of n_k. With f = s e_k, n.f = |n_k| and
+// Let k be the axis of n's largest component, (k, i, j) the axes in cyclic order, and s the sign of n_k. With
+// f = s e_k, n.f = |n_k| and
 //   u = ( E2_j (p-a)_i - E2_i (p-a)_j) / n_k
 //   v = (-E1_j (p-a)_i + E1_i (p-a)_j) / n_k
 //   w = s (p-a)_k + (n_i (p-a)_i + n_j (p-a)_j) / |n_k|
 // Two coefficients of column k are 0 and one is s: what remains are nine numbers and which column, with its sign.
 //
-// Departures: the source takes f = e_k, so that w > 0 may be either side; with the sign it is the front, always. And it divides first;
-// here both ends of the segment are transformed, and with F = w(from), T = w(to) and D = F - T the weights at the plane times D are
-// F u(to) - T u(from) and F v(to) - T v(from). Some entries of the printed inverses are hard to read; tests/kernels/inverse_test.cpp
-// applies ours to the corners.
+// Departures: the source takes f = e_k, so that w > 0 may be either side; with the sign it is the front, always. And it
+// divides first; here both ends of the segment are transformed, and with F = w(from), T = w(to) and D = F - T the
+// weights at the plane times D are F u(to) - T u(from) and F v(to) - T v(from). Some entries of the printed inverses
+// are hard to read; tests/kernels/inverse_test.cpp applies ours to the corners.
 #pragma once
 
 #include <cmath>
@@ -25,7 +28,8 @@
 
 namespace pierce::kernels {
 
-/// Which column of the map holds (0, 0, s): the axis k, plus 3 where s is -1. One byte; for numbers with lanes a number in each.
+/// Which column of the map holds (0, 0, s): the axis k, plus 3 where s is -1. One byte; for numbers with lanes a number
+/// in each.
 template <class Number>
 using Column = std::conditional_t<std::is_arithmetic_v<Number>, std::uint8_t, Number>;
 
@@ -44,7 +48,9 @@ template <class Number>
     requires(!std::is_arithmetic_v<Number>)
 [[nodiscard]] Triple<Number> from_column(const Number& column, const Triple<Number>& p) {
     const auto is = [&](int k) { return (column == Number(k)) | (column == Number(k + 3)); };
-    const auto pick = [&](std::size_t x, std::size_t y, std::size_t z) { return select(is(0), p[x], select(is(1), p[y], p[z])); };
+    const auto pick = [&](std::size_t x, std::size_t y, std::size_t z) {
+        return select(is(0), p[x], select(is(1), p[y], p[z]));
+    };
     return {pick(0, 1, 2), pick(1, 2, 0), pick(2, 0, 1)};
 }
 template <class Number>
@@ -53,9 +59,9 @@ template <class Number>
     return select(column < Number(3), x, -x);
 }
 
-/// Twelve numbers: the three rows of the map. Of either side, by `sides`. In range where `Bloom` is; a computed normal of zero
-/// gives zeros, which nothing hits. Neighbours that share an edge compute it from different rows: a segment aimed at the edge can
-/// pass between them, and can hit both.
+/// Twelve numbers: the three rows of the map. Of either side, by `sides`. In range where `Bloom` is; a computed normal
+/// of zero gives zeros, which nothing hits. Neighbours that share an edge compute it from different rows: a segment
+/// aimed at the edge can pass between them, and can hit both.
 struct BaldwinWeber12 {
     Sides sides = Sides::front;
 
@@ -92,7 +98,8 @@ struct BaldwinWeber12 {
     }
 
     template <class Number>
-    [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from,
+                                          const Triple<Number>& to) const {
         auto [hit, f, g] = passage(t.height(from), t.height(to), sides);
         if (none(hit)) return {hit};
         const Number d = f - g;
@@ -125,7 +132,9 @@ struct BaldwinWeber9 {
         Number at_j;
         Number offset;
 
-        [[nodiscard]] constexpr Number operator()(const Triple<Number>& kij) const { return at_i * kij[1] + at_j * kij[2] + offset; }
+        [[nodiscard]] constexpr Number operator()(const Triple<Number>& kij) const {
+            return at_i * kij[1] + at_j * kij[2] + offset;
+        }
     };
     template <class Number>
     struct Stored {
@@ -136,7 +145,8 @@ struct BaldwinWeber9 {
     };
 
     template <class Scalar>
-    [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) const {
+    [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
+                                         const PointOf<Scalar>& c) const {
         const auto full = BaldwinWeber12{}.prepare<Scalar>(a, b, c);
         std::uint8_t k = 0;
         while (k < 2 && std::abs(full.height.normal[k]) != 1) ++k;
@@ -147,14 +157,17 @@ struct BaldwinWeber9 {
         const auto row = [i, j](const Plane<Scalar>& p, Scalar s) {
             return Row<Scalar>{s * p.normal[i], s * p.normal[j], s * p.offset};
         };
-        return {row(full.u, 1), row(full.v, 1), row(full.height, sign), static_cast<std::uint8_t>(sign > 0 ? k : k + 3)};
+        return {row(full.u, 1), row(full.v, 1), row(full.height, sign),
+                static_cast<std::uint8_t>(sign > 0 ? k : k + 3)};
     }
 
     template <class Number>
-    [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from,
+                                          const Triple<Number>& to) const {
         const Triple<Number> start = from_column(t.column, from);
         const Triple<Number> end = from_column(t.column, to);
-        auto [hit, f, g] = passage(with_sign_of(t.column, start[0] + t.height(start)), with_sign_of(t.column, end[0] + t.height(end)), sides);
+        auto [hit, f, g] = passage(with_sign_of(t.column, start[0] + t.height(start)),
+                                   with_sign_of(t.column, end[0] + t.height(end)), sides);
         if (none(hit)) return {hit};
         const Number d = f - g;
         const Number u = f * t.u(end) - g * t.u(start);
@@ -182,7 +195,8 @@ struct BaldwinWeber9 {
     }
 };
 
-static_assert(sizeof(BaldwinWeber9::Stored<float>) == 10 * sizeof(float));  // the column is one byte, and three to align it
+// The column is one byte, and three to align it.
+static_assert(sizeof(BaldwinWeber9::Stored<float>) == 10 * sizeof(float));
 
 inline constexpr BaldwinWeber12 baldwin_weber_12{};
 inline constexpr BaldwinWeber9 baldwin_weber_9{};

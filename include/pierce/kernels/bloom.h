@@ -1,14 +1,16 @@
 // Bloom's test: the plane of the triangle and two "barycentric planes", twelve numbers.
 //
-// Source: Bloom 2002, "Fast ray tri (with precomputation)". With n = (b-a) x (c-a), F = height(from), T = height(to) and D = F - T, the
-// segment meets the plane in x = (F to - T from) / D: at fraction s = F / D, and to s + from (1 - s) is just that. A barycentric
-// plane contains an edge and the direction n, and is scaled to read 1 at the opposite corner; its value at x times D is
+// Source: Bloom 2002, "Fast ray tri (with precomputation)". With n = (b-a) x (c-a), F = height(from), T = height(to)
+// and D = F - T, the segment meets the plane in x = (F to - T from) / D: at fraction s = F / D, and to s + from (1 - s)
+// is just that. A barycentric plane contains an edge and the direction n, and is scaled to read 1 at the opposite
+// corner; its value at x times D is
 //   normal . (F to - T from) + offset D,
 // so that nothing is divided before the hit is certain.
 //
-// Departures: the listing adds the two products, where the difference is meant: that is the segment from -> -to, and most hits are
-// lost, far from the origin all (tests/kernels/weaknesses_test.cpp). Its normal points to the back, ours to the front. It keeps the weights of
-// c (plane through ab) and a (plane through bc); b's, which is u here, is what is left.
+// Departures: the listing adds the two products, where the difference is meant: that is the segment from -> -to, and
+// most hits are lost, far from the origin all (tests/kernels/weaknesses_test.cpp). Its normal points to the back, ours
+// to the front. It keeps the weights of c (plane through ab) and a (plane through bc); b's, which is u here, is what is
+// left.
 #pragma once
 
 #include <cmath>
@@ -25,8 +27,8 @@ struct Bloom {
         Plane<Number> weight_a;  ///< 0 on the edge bc, 1 at a
     };
 
-    /// One-sided. A computed normal of zero gives twelve zeros, which nothing hits. In range for float where the triangle's size and its
-    /// distance from the origin are within 2^-40 .. 2^40; for double 2^-300 .. 2^300.
+    /// One-sided. A computed normal of zero gives twelve zeros, which nothing hits. In range for float where the
+    /// triangle's size and its distance from the origin are within 2^-40 .. 2^40; for double 2^-300 .. 2^300.
     template <class Scalar>
     [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& corner_a, const PointOf<Scalar>& corner_b,
                                          const PointOf<Scalar>& corner_c) const {
@@ -37,7 +39,8 @@ struct Bloom {
         const Scalar size = std::abs(unscaled[largest(unscaled)]);
         if (!(size > 0)) return {};
         const Triple<Scalar> n = {unscaled[0] / size, unscaled[1] / size, unscaled[2] / size};
-        const auto barycentric = [&n](const Triple<Scalar>& p, const Triple<Scalar>& q, const Triple<Scalar>& opposite) {
+        const auto barycentric = [&n](const Triple<Scalar>& p, const Triple<Scalar>& q,
+                                      const Triple<Scalar>& opposite) {
             const Triple<Scalar> inwards = cross(n, q - p);
             return plane((1 / dot(inwards, opposite - p)) * inwards, p);
         };
@@ -45,7 +48,8 @@ struct Bloom {
     }
 
     template <class Number>
-    [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from,
+                                          const Triple<Number>& to) const {
         const Number f = t.height(from);
         const Number g = t.height(to);
         Mask<Number> hit = (f >= Number{}) & (g < Number{});

@@ -1,19 +1,22 @@
 // Bailey's test: Cramer's rule with four determinants, each computed by itself.
 //
-// Source: Bailey 2023, "An Efficient Ray-Triangle Intersection Algorithm" (slides, Oregon State University). From S + t Q = P0 + u (P1-P0) +
-// v (P2-P0) follow three equations A t + B u + C v = D with the columns A = -Q, B = P1 - P0, C = P2 - P0, D = S - P0, and
+// Source: Bailey 2023, "An Efficient Ray-Triangle Intersection Algorithm" (slides, Oregon State University). From
+// S + t Q = P0 + u (P1-P0) + v (P2-P0) follow three equations A t + B u + C v = D with the columns A = -Q, B = P1 - P0,
+// C = P2 - P0, D = S - P0, and
 //   t = |D B C| / |A B C|     u = |A D C| / |A B C|     v = |A B D| / |A B C|
-// |A B C| = -Q . n is positive for a segment that comes from the front. The slides call it Moller and Trumbore's, which has the same
-// quotients but shares the cross products: 27 multiplications there, 36 here.
+// |A B C| = -Q . n is positive for a segment that comes from the front. The slides call it Moller and Trumbore's, which
+// has the same quotients but shares the cross products: 27 multiplications there, 36 here.
 //
-// Departures: a segment, t < 1; signs are judged on determinants and the division comes last; |A B C| = 0 is judged exactly as computed.
+// Departures: a segment, t < 1; signs are judged on determinants and the division comes last; |A B C| = 0 is judged
+// exactly as computed.
 #pragma once
 
 #include <pierce/kernels/concept.h>
 
 namespace pierce::kernels {
 
-/// Of either side, by `sides`. Errs as `MollerTrumbore` does, but two equal corners give a determinant of exactly 0, and are never hit.
+/// Of either side, by `sides`. Errs as `MollerTrumbore` does, but two equal corners give a determinant of exactly 0,
+/// and are never hit.
 struct Cramer {
     Sides sides = Sides::front;
 
@@ -21,12 +24,14 @@ struct Cramer {
     using Stored = Vertices<Number>;
 
     template <class Scalar>
-    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) const {
+    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
+                                           const PointOf<Scalar>& c) const {
         return {triple<Scalar>(a), triple<Scalar>(b), triple<Scalar>(c)};
     }
 
     template <class Number>
-    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& triangle, const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& triangle, const Triple<Number>& from,
+                                          const Triple<Number>& to) const {
         const Triple<Number> a = from - to;
         const Triple<Number> b = triangle.b - triangle.a;
         const Triple<Number> c = triangle.c - triangle.a;
@@ -58,7 +63,8 @@ struct Cramer {
     // By the first row.
     template <class Number>
     static Number of_columns(const Triple<Number>& p, const Triple<Number>& q, const Triple<Number>& r) {
-        return p[0] * (q[1] * r[2] - q[2] * r[1]) - q[0] * (p[1] * r[2] - p[2] * r[1]) + r[0] * (p[1] * q[2] - p[2] * q[1]);
+        return p[0] * (q[1] * r[2] - q[2] * r[1]) - q[0] * (p[1] * r[2] - p[2] * r[1]) +
+               r[0] * (p[1] * q[2] - p[2] * q[1]);
     }
 };
 

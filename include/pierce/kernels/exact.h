@@ -5,8 +5,9 @@
 
 namespace pierce::kernels {
 
-/// What `CollisionMesh` would say of a mesh of this one triangle, and what the other kernels are judged by. Total: a triangle of area
-/// zero and a coordinate that is not finite give no hit. fraction, u and v are within 1 ulp. Takes about a microsecond (it does not filter).
+/// What `CollisionMesh` would say of a mesh of this one triangle, and what the other kernels are judged by. Total: a
+/// triangle of area zero and a coordinate that is not finite give no hit. fraction, u and v are within 1 ulp. Takes
+/// about a microsecond (it does not filter).
 struct Exact {
     Sides sides = Sides::front;
 

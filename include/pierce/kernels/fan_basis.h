@@ -1,13 +1,15 @@
 // The bases of Barnes' test: one for each triangle of a fan, and the change of coordinates from each to the next.
 //
-// Source: Barnes 2014, "A Beautiful Ray/Mesh Intersection Algorithm" (tavianator.com). The triangles are A R0 R1, A R1 R2, ... In the basis of
-// the first, p = A + u AB + v AC + w N, with B = R0, C = R1, N = AB x AC. Our derivation of the step to the next, A C D, where
-// p = A + u' AC + v' AD + w' N' with N' = AC x AD: the origins agree, and AC is the first vector of the new basis. The other two are
+// Source: Barnes 2014, "A Beautiful Ray/Mesh Intersection Algorithm" (tavianator.com). The triangles are A R0 R1, A R1
+// R2, ... In the basis of the first, p = A + u AB + v AC + w N, with B = R0, C = R1, N = AB x AC. Our derivation of the
+// step to the next, A C D, where p = A + u' AC + v' AD + w' N' with N' = AC x AD: the origins agree, and AC is the
+// first vector of the new basis. The other two are
 //   AB = a AC + b AD + c N'     N = d AC + e AD + f N'
 // and by Cramer's rule, over N'.N' = [AC AD N'],
 //   a = (AB x AD).N'   b = (AC x AB).N'   c = AB.N'     d = (N x AD).N'   e = (AC x N).N'   f = N.N'
-// Putting them into p gives u' = a u + v + d w, v' = b u + e w, w' = c u + f w: six numbers, 6 multiplications, 4 additions a vector.
-// All that is asked of N is its direction. Its length is chosen as `FanBasis` says, so that u, v, w and the six are free of units.
+// Putting them into p gives u' = a u + v + d w, v' = b u + e w, w' = c u + f w: six numbers, 6 multiplications, 4
+// additions a vector. All that is asked of N is its direction. Its length is chosen as `FanBasis` says, so that u, v, w
+// and the six are free of units.
 #pragma once
 
 #include <algorithm>
@@ -31,8 +33,8 @@ struct FanFirst {
     Plane<Number> height;
 };
 
-/// From the basis of one triangle to that of the next. The first `a` of a fan is lowered by one, and in the last `a` and `d` are
-/// a + b and d + e, see triangle_fan.h.
+/// From the basis of one triangle to that of the next. The first `a` of a fan is lowered by one, and in the last `a`
+/// and `d` are a + b and d + e, see triangle_fan.h.
 template <class Number>
 struct FanTurn {
     Number a, b, c, d, e, f;
@@ -40,12 +42,13 @@ struct FanTurn {
 
 static_assert(sizeof(FanFirst<float>) == 12 * sizeof(float) && sizeof(FanTurn<float>) == 6 * sizeof(float));
 
-/// Two edges at the apex times the power of two that brings their largest component into 1 .. 2, and n = ab x ac there, so that
-/// n.n has no fourth power of a length. N is n in the world's units, n / scale.
+/// Two edges at the apex times the power of two that brings their largest component into 1 .. 2, and n = ab x ac there,
+/// so that n.n has no fourth power of a length. N is n in the world's units, n / scale.
 ///
-/// With R for `k_fan_range`, which allows the exponents -R - 1 .. R: edges are at most 2 sqrt(3) < 2^1.8 long, n 2^3.6, and at least 2^-R. The
-/// edges and N of one basis are at most 2^(2 R + 1) times as large in the units of the next. So the largest of the six, d and e, are at most
-/// 2^(3.6 + 2 R + 1) 2^1.8 / 2^-R = 2^(3 R + 6.4), for float 2^126.4, and their numerators less; rows are at most 2^(R + 1) 2^1.8 / 2^-R.
+/// With R for `k_fan_range`, which allows the exponents -R - 1 .. R: edges are at most 2 sqrt(3) < 2^1.8 long, n 2^3.6,
+/// and at least 2^-R. The edges and N of one basis are at most 2^(2 R + 1) times as large in the units of the next. So
+/// the largest of the six, d and e, are at most 2^(3.6 + 2 R + 1) 2^1.8 / 2^-R = 2^(3 R + 6.4), for float 2^126.4, and
+/// their numerators less; rows are at most 2^(R + 1) 2^1.8 / 2^-R.
 template <class Scalar>
 struct FanBasis {
     Triple<Scalar> ab;
@@ -87,7 +90,8 @@ template <class Scalar>
     // a + b and d + e: (AB x AD + AC x AB) = AB x (AD - AC)
     const Triple<Scalar> other = last ? ad - ac : ad;
     const auto part = [&](const Triple<Scalar>& x) { return dot(x, basis.n) / basis.square; };
-    return {part(cross(ab, other)), part(cross(ac, ab)), part(ab), part(cross(normal, other)), part(cross(ac, normal)), part(normal)};
+    return {part(cross(ab, other)),     part(cross(ac, ab)),     part(ab),
+            part(cross(normal, other)), part(cross(ac, normal)), part(normal)};
 }
 
 }  // namespace pierce::kernels

@@ -1,21 +1,23 @@
 // Moller and Trumbore's test: nothing is computed beforehand.
 //
-// Source: Moller and Trumbore 1997, "Fast, Minimum Storage Ray-Triangle Intersection"; the division comes last, as in Bloom 2002,
-// addendum. With d = to - from, E1 = b - a, E2 = c - a, s = from - a, the line from + t d = a + u E1 + v E2 is solved by triple products
-// over one determinant, which is minus d . n:
+// Source: Moller and Trumbore 1997, "Fast, Minimum Storage Ray-Triangle Intersection"; the division comes last, as in
+// Bloom 2002, addendum. With d = to - from, E1 = b - a, E2 = c - a, s = from - a, the line from + t d = a + u E1 + v E2
+// is solved by triple products over one determinant, which is minus d . n:
 //   det = E1 . (d x E2)     u det = s . (d x E2)     v det = d . (s x E1)     t det = E2 . (s x E1)
 //
-// Departures: a segment, so t det < det as well as t det >= 0; no epsilon on the determinant, since nothing is divided by one that is 0.
+// Departures: a segment, so t det < det as well as t det >= 0; no epsilon on the determinant, since nothing is divided
+// by one that is 0.
 #pragma once
 
 #include <pierce/kernels/concept.h>
 
 namespace pierce::kernels {
 
-/// Of either side, by `sides`. Differences of coordinates come first, so that distance from the origin costs little. But whether an end is in
-/// front of the plane is a triple product with the segment's own direction in it, not a function of the point: the end of one step and
-/// the start of the next, which are the same point, may come out on different sides. A triangle of area zero with b = c, or with corners on
-/// a slanted line, may have a determinant of the size of rounding, and be hit.
+/// Of either side, by `sides`. Differences of coordinates come first, so that distance from the origin costs little.
+/// But whether an end is in front of the plane is a triple product with the segment's own direction in it, not a
+/// function of the point: the end of one step and the start of the next, which are the same point, may come out on
+/// different sides. A triangle of area zero with b = c, or with corners on a slanted line, may have a determinant of
+/// the size of rounding, and be hit.
 struct MollerTrumbore {
     Sides sides = Sides::front;
 
@@ -23,12 +25,14 @@ struct MollerTrumbore {
     using Stored = Vertices<Number>;
 
     template <class Scalar>
-    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) const {
+    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
+                                           const PointOf<Scalar>& c) const {
         return {triple<Scalar>(a), triple<Scalar>(b), triple<Scalar>(c)};
     }
 
     template <class Number>
-    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& t, const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& t, const Triple<Number>& from,
+                                          const Triple<Number>& to) const {
         const Triple<Number> d = to - from;
         const Triple<Number> e1 = t.b - t.a;
         const Triple<Number> e2 = t.c - t.a;

@@ -1,5 +1,5 @@
-// The arithmetic that the single-triangle kernels are written in: once, over any type of number. float and double, a number that counts
-// its operations (tests), and several numbers in step (lib/kernel/wide.h) all run the same formula.
+// The arithmetic that the single-triangle kernels are written in: once, over any type of number. float and double, a
+// number that counts its operations (tests), and several numbers in step (lib/kernel/wide.h) all run the same formula.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace pierce::kernels {
 
-// A number has + - * / and the comparisons; what these yield is its mask: bool, or one truth value for each lane. A type with lanes
-// brings `none`, `select` and the other functions of this page along, in its own namespace.
+// A number has + - * / and the comparisons; what these yield is its mask: bool, or one truth value for each lane. A
+// type with lanes brings `none`, `select` and the other functions of this page along, in its own namespace.
 
 template <class Number>
 using Mask = decltype(std::declval<const Number&>() < std::declval<const Number&>());
@@ -58,7 +58,8 @@ template <class Scalar>
     return size(2) > size(xy) ? 2 : xy;
 }
 
-/// An affine function of a point, `normal . p + offset`: a row of an affine map, or a plane scaled to measure what is wanted.
+/// An affine function of a point, `normal . p + offset`: a row of an affine map, or a plane scaled to measure what is
+/// wanted.
 template <class Number>
 struct Plane {
     Triple<Number> normal;
@@ -90,15 +91,16 @@ struct Tested {
     Number v{};
 };
 
-/// Late division (Bloom 2002, addendum): everything has been decided on multiples by d > 0, and only a hit pays for quotients.
-/// With 0 <= part <= d each of them is in [0, 1] after rounding too, which a product by 1/d would not be.
+/// Late division (Bloom 2002, addendum): everything has been decided on multiples by d > 0, and only a hit pays for
+/// quotients. With 0 <= part <= d each of them is in [0, 1] after rounding too, which a product by 1/d would not be.
 template <class Number>
-[[nodiscard]] constexpr Tested<Number> divided(const Mask<Number>& hit, const Number& fraction, const Number& u, const Number& v,
-                                               const Number& d) {
+[[nodiscard]] constexpr Tested<Number> divided(const Mask<Number>& hit, const Number& fraction, const Number& u,
+                                               const Number& v, const Number& d) {
     return {hit, fraction / d, u / d, v / d};
 }
 
-/// The heights of a segment's ends over a plane, turned so that an accepted segment comes from above: from >= 0 >= to, from > to.
+/// The heights of a segment's ends over a plane, turned so that an accepted segment comes from above: from >= 0 >= to,
+/// from > to.
 template <class Number>
 struct Passage {
     Mask<Number> hit;
@@ -106,8 +108,8 @@ struct Passage {
     Number to;
 };
 
-/// Bloom's rule for the plane: the start on it counts as in front of it, the end has to be behind. For the back the same, mirrored; for
-/// both a change of side, where on the plane counts as in front (`Sides`).
+/// Bloom's rule for the plane: the start on it counts as in front of it, the end has to be behind. For the back the
+/// same, mirrored; for both a change of side, where on the plane counts as in front (`Sides`).
 template <class Number>
 [[nodiscard]] constexpr Passage<Number> passage(const Number& from, const Number& to, Sides sides) {
     const Number zero{};
@@ -120,8 +122,8 @@ template <class Number>
     return {either, select(back, -from, from), select(back, -to, to)};
 }
 
-/// The same for kernels whose quotients are over a determinant that is positive for a segment from the front: turns it, and what is
-/// divided by it, so that it is positive for each side that counts.
+/// The same for kernels whose quotients are over a determinant that is positive for a segment from the front: turns it,
+/// and what is divided by it, so that it is positive for each side that counts.
 template <class Number>
 class Turning {
   public:
@@ -132,8 +134,9 @@ class Turning {
         return sides_ == Sides::front ? x : sides_ == Sides::back ? -x : select(negative_, -x, x);
     }
 
-    /// Whether a fraction is that of a passage: 0 <= t < 1, both sides of it turned and times the determinant. For a passage from the back
-    /// where both sides count, 0 < t <= 1: its start on the plane is in front already, and its end on the plane is in front.
+    /// Whether a fraction is that of a passage: 0 <= t < 1, both sides of it turned and times the determinant. For a
+    /// passage from the back where both sides count, 0 < t <= 1: its start on the plane is in front already, and its
+    /// end on the plane is in front.
     [[nodiscard]] Mask<Number> passes(const Number& t, const Number& determinant) const {
         const Mask<Number> hit = (t >= Number{}) & (t < determinant);
         if (sides_ != Sides::both) return hit;

@@ -1,17 +1,20 @@
 // Barnes' test: all triangles around a corner at once, by changes of basis from each to the next.
 //
-// Source: Barnes 2014, "A Beautiful Ray/Mesh Intersection Algorithm" (tavianator.com); the bases and the steps between them are in fan_basis.h.
+// Source: Barnes 2014, "A Beautiful Ray/Mesh Intersection Algorithm" (tavianator.com); the bases and the steps between
+// them are in fan_basis.h.
 //
-// Counts. The source gives n divisions, 6 + 14 n multiplications, 7 + 11 n additions for a ray, that is a start and a direction; a segment
-// first needs its direction, 3 additions more. We make up for them, and stay within the same counts, by z = u + v in two places, where
-// 0 <= u <= z <= 1 needs no sum and only an answer the difference, 1 addition:
-// - The first middle row reads z, not v; the next u' = (a - 1) u + z + d w costs what it did. Segment 3, three rows of start and direction
-//   9 + 6, two values at the plane 2: 20 additions.
-// - The last triangle is judged at the point where the line meets its plane, in the basis before it, by v' and z' = (a + b) u + v + (d + e) w:
-//   2 additions for the heights, 3 for the point, 1 + 2 for v' and z' there: 8 in place of 11.
-// One of these at most is the answer: 20 + 11 (n - 2) + 8 + 1 = 7 + 11 n. A fan of one triangle does both in the world's basis: direction 3,
-// heights 3 + 2, point 3, u and z 6, the difference 1: 18. The direction is kept backwards, from - to, so that t = w(start) / w(direction)
-// needs no sign.
+// Counts. The source gives n divisions, 6 + 14 n multiplications, 7 + 11 n additions for a ray, that is a start and a
+// direction; a segment first needs its direction, 3 additions more. We make up for them, and stay within the same
+// counts, by z = u + v in two places, where 0 <= u <= z <= 1 needs no sum and only an answer the difference, 1
+// addition:
+// - The first middle row reads z, not v; the next u' = (a - 1) u + z + d w costs what it did. Segment 3, three rows of
+//   start and direction 9 + 6, two values at the plane 2: 20 additions.
+// - The last triangle is judged at the point where the line meets its plane, in the basis before it, by v' and
+//   z' = (a + b) u + v + (d + e) w: 2 additions for the heights, 3 for the point, 1 + 2 for v' and z' there: 8 in place
+//   of 11.
+// One of these at most is the answer: 20 + 11 (n - 2) + 8 + 1 = 7 + 11 n. A fan of one triangle does both in the
+// world's basis: direction 3, heights 3 + 2, point 3, u and z 6, the difference 1: 18. The direction is kept backwards,
+// from - to, so that t = w(start) / w(direction) needs no sign.
 #pragma once
 
 #include <span>
@@ -26,12 +29,14 @@ namespace pierce::kernels {
 
 template <class Scalar>
 struct FanAnswer : Answer<Scalar> {
-    std::uint32_t triangle;  ///< which of the fan: k has the corners apex, ring[k], ring[k + 1]; u and v are the weights of the last two
+    /// Which of the fan: k has the corners apex, ring[k], ring[k + 1]; u and v are the weights of the last two.
+    std::uint32_t triangle;
 };
 
-/// Of either side, by `sides`. The answer is the first hit along the segment, of equal fractions as computed that of the first triangle. The
-/// errors of u, v, w are handed on from each triangle to the next, and grow where these are thin or nearly opposite to one another: for fans
-/// of good triangles with up to ten members they stay within a few times those of `BaldwinWeber12`, with 64 it is some hundred times. `fans_of` has a limit for that.
+/// Of either side, by `sides`. The answer is the first hit along the segment, of equal fractions as computed that of
+/// the first triangle. The errors of u, v, w are handed on from each triangle to the next, and grow where these are
+/// thin or nearly opposite to one another: for fans of good triangles with up to ten members they stay within a few
+/// times those of `BaldwinWeber12`, with 64 it is some hundred times. `fans_of` has a limit for that.
 struct TriangleFan {
     Sides sides = Sides::front;
 
@@ -48,15 +53,18 @@ struct TriangleFan {
         [[nodiscard]] std::size_t triangles() const { return turns.size() + 1; }
     };
 
-    /// Whether there is a basis. There is if the longer of ab and ac is within 2^-40 .. 2^40 in float, 2^-320 .. 2^320 in double, and the double
-    /// area, as computed, at least 2^-40 (2^-320) of its square; and none where the area is computed as zero, infinite or NaN.
+    /// Whether there is a basis. There is if the longer of ab and ac is within 2^-40 .. 2^40 in float, 2^-320 .. 2^320
+    /// in double, and the double area, as computed, at least 2^-40 (2^-320) of its square; and none where the area is
+    /// computed as zero, infinite or NaN.
     template <class Scalar>
     [[nodiscard]] static bool has_basis(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) {
-        return fan_basis<Scalar>(triple<Scalar>(b) - triple<Scalar>(a), triple<Scalar>(c) - triple<Scalar>(a)).has_value();
+        return fan_basis<Scalar>(triple<Scalar>(b) - triple<Scalar>(a), triple<Scalar>(c) - triple<Scalar>(a))
+            .has_value();
     }
 
-    /// n triangles from n + 1 ring vertices. Throws `MeshError` when there is no triangle, or one without a basis, which breaks the chain, among
-    /// several; `fans_of` makes no such fan. A single triangle without one gives zeros, which nothing hits.
+    /// n triangles from n + 1 ring vertices. Throws `MeshError` when there is no triangle, or one without a basis,
+    /// which breaks the chain, among several; `fans_of` makes no such fan. A single triangle without one gives zeros,
+    /// which nothing hits.
     template <class Scalar>
     [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& apex, std::span<const Vec3<Scalar>> ring) const {
         if (ring.size() < 2) throw MeshError("a fan needs at least one triangle");
@@ -68,7 +76,9 @@ struct TriangleFan {
         std::optional<FanBasis<Scalar>> before;
         for (std::size_t k = 0; k <= last; ++k) {
             const auto basis = fan_basis<Scalar>(triple<Scalar>(ring[k]) - a, triple<Scalar>(ring[k + 1]) - a);
-            if (!basis) throw MeshError("fan triangle " + std::to_string(k) + " has no area, or one that can't be computed with");
+            if (!basis)
+                throw MeshError("fan triangle " + std::to_string(k) +
+                                " has no area, or one that can't be computed with");
             if (!before) stored.first = fan_first(*basis, a);
             else stored.turns.push_back(fan_turn(*before, *basis, k == last));
             before = basis;
@@ -78,7 +88,8 @@ struct TriangleFan {
     }
 
     template <class Scalar>
-    [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) const {
+    [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
+                                         const PointOf<Scalar>& c) const {
         const Triple<Scalar> apex = triple<Scalar>(a);
         const auto basis = fan_basis<Scalar>(triple<Scalar>(b) - apex, triple<Scalar>(c) - apex);
         return basis ? Stored<Scalar>{fan_first(*basis, apex), {}} : Stored<Scalar>{};
@@ -92,8 +103,10 @@ struct TriangleFan {
 
     /// `Number` has one lane: its mask is bool.
     template <class Number>
-    [[nodiscard]] std::optional<FanAnswer<Number>> evaluate(const First<Number>& first, std::span<const Turn<Number>> turns,
-                                                            const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] std::optional<FanAnswer<Number>> evaluate(const First<Number>& first,
+                                                            std::span<const Turn<Number>> turns,
+                                                            const Triple<Number>& from,
+                                                            const Triple<Number>& to) const {
         const Triple<Number> back = from - to;
         Line<Number> line{{}, {}, first.height(from), dot(first.height.normal, back)};
         Nearest<Number> nearest;
@@ -132,8 +145,8 @@ struct TriangleFan {
     }
 
   private:
-    /// The start is in front or on the plane, and the end, whose height is w - back_w, behind it; from the back the same,
-    /// mirrored; for both a change of side, where on the plane counts as in front.
+    /// The start is in front or on the plane, and the end, whose height is w - back_w, behind it; from the back the
+    /// same, mirrored; for both a change of side, where on the plane counts as in front.
     template <class Number>
     [[nodiscard]] bool passes(const Number& w, const Number& back_w) const {
         const bool down = w >= Number{} && w < back_w;
@@ -164,10 +177,12 @@ struct TriangleFan {
             if (new_u >= Number{} && u_plus_v >= new_u && u_plus_v <= Number(1)) *this = {at, new_u, u_plus_v, 0, true};
         }
         void take(const Number& at, const Number& new_u, const Number& new_v, std::size_t number) {
-            if (new_u >= Number{} && new_v >= Number{} && new_u + new_v <= Number(1)) *this = {at, new_u, new_v, number, true};
+            if (new_u >= Number{} && new_v >= Number{} && new_u + new_v <= Number(1))
+                *this = {at, new_u, new_v, number, true};
         }
         void take_last(const Number& at, const Number& new_v, const Number& u_plus_v, std::size_t number) {
-            if (new_v >= Number{} && u_plus_v >= new_v && u_plus_v <= Number(1)) *this = {at, u_plus_v - new_v, new_v, number, true};
+            if (new_v >= Number{} && u_plus_v >= new_v && u_plus_v <= Number(1))
+                *this = {at, u_plus_v - new_v, new_v, number, true};
         }
         [[nodiscard]] std::optional<FanAnswer<Number>> answer() const {
             if (!found) return std::nullopt;

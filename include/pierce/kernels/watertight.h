@@ -1,14 +1,17 @@
 // Woop, Benthin and Wald's test: no crack at the edges that triangles share.
 //
-// Source: Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1). The origin is moved to zero and the axis of the
-// direction's largest component, z, is sheared onto the direction: the line becomes the z axis, and it hits the triangle if the origin lies
-// in the triangle's image in the plane. The corners are transformed one by one, and the three edge functions
+// Source: Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1). The origin is moved to zero
+// and the axis of the direction's largest component, z, is sheared onto the direction: the line becomes the z axis, and
+// it hits the triangle if the origin lies in the triangle's image in the plane. The corners are transformed one by one,
+// and the three edge functions
 //   U = Cx By - Cy Bx     V = Ax Cy - Ay Cx     W = Bx Ay - By Ax
-// depend on two corners each, so that the two triangles at an edge see the same number with opposite signs. x and y are exchanged where
-// the direction goes down its axis, so that U, V, W are positive for a front. An edge function that is 0 in float is recomputed in double.
+// depend on two corners each, so that the two triangles at an edge see the same number with opposite signs. x and y are
+// exchanged where the direction goes down its axis, so that U, V, W are positive for a front. An edge function that is
+// 0 in float is recomputed in double.
 //
-// Departures: a segment, fraction < 1. For double, where there is nothing wider at hand, a 0 is recomputed from the rounding errors
-// of the two products, which are exact in a fused operation. Transforming per ray is done once per test here.
+// Departures: a segment, fraction < 1. For double, where there is nothing wider at hand, a 0 is recomputed from the
+// rounding errors of the two products, which are exact in a fused operation. Transforming per ray is done once per test
+// here.
 #pragma once
 
 #include <cmath>
@@ -26,14 +29,16 @@ namespace pierce::kernels {
     return std::fma(p, q, -(p * q)) - std::fma(r, s, -(r * s));  // the products are the same number
 }
 
-/// The edge function p q - r s, and the better one where it is 0. For a type of number with lanes there is another in its namespace.
+/// The edge function p q - r s, and the better one where it is 0. For a type of number with lanes there is another in
+/// its namespace.
 template <class Number>
 [[nodiscard]] Number edge_function(const Number& p, const Number& q, const Number& r, const Number& s, bool refine) {
     return refine ? refined(p, q, r, s) : p * q - r * s;
 }
 
-/// Of either side, by `sides`. Watertight at edges and corners against one and the same segment, as long as nothing overflows or underflows
-/// and nothing is contracted. Not at the plane: whether an end lies in front of it is as rounded as everywhere, so chains of steps leak.
+/// Of either side, by `sides`. Watertight at edges and corners against one and the same segment, as long as nothing
+/// overflows or underflows and nothing is contracted. Not at the plane: whether an end lies in front of it is as
+/// rounded as everywhere, so chains of steps leak.
 struct Watertight {
     Sides sides = Sides::front;
 
@@ -41,12 +46,14 @@ struct Watertight {
     using Stored = Vertices<Number>;
 
     template <class Scalar>
-    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b, const PointOf<Scalar>& c) const {
+    [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
+                                           const PointOf<Scalar>& c) const {
         return {triple<Scalar>(a), triple<Scalar>(b), triple<Scalar>(c)};
     }
 
     template <class Number>
-    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& t, const Triple<Number>& from, const Triple<Number>& to) const {
+    [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& t, const Triple<Number>& from,
+                                          const Triple<Number>& to) const {
         const Number zero{};
         const Triple<Number> way = to - from;
         const auto magnitude = [&zero](const Number& x) { return select(x < zero, -x, x); };
@@ -56,7 +63,9 @@ struct Watertight {
         const Mask<Number> x_is_z = x_beats_y & x_beats_z;
         const Mask<Number> y_is_z = size[1] >= size[2];
         const auto turned = [&](const Triple<Number>& p) -> Triple<Number> {
-            const auto pick = [&](std::size_t i, std::size_t j, std::size_t k) { return select(x_is_z, p[i], select(y_is_z, p[j], p[k])); };
+            const auto pick = [&](std::size_t i, std::size_t j, std::size_t k) {
+                return select(x_is_z, p[i], select(y_is_z, p[j], p[k]));
+            };
             return {pick(1, 2, 0), pick(2, 0, 1), pick(0, 1, 2)};
         };
         const Triple<Number> d = turned(way);

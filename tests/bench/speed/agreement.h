@@ -14,8 +14,8 @@ class Agreement {
     /// What Embree, which is not exact, may differ in from pierce; CGAL may not at all.
     static constexpr double k_tolerated = 1e-3;
 
-    /// Compares `count` answers of pierce with those of Embree and, if they are among the columns, of CGAL, and
-    /// stops after `seconds`.
+    /// Compares `count` answers of pierce with those of Embree and, if they are among the columns, of CGAL, and stops
+    /// after `seconds`.
     void compare(std::string_view mesh, std::string_view set, const Columns& columns, std::size_t count,
                  double seconds);
 
