@@ -41,15 +41,15 @@ struct FilterVolumes {
 
 template <class Four>
 [[nodiscard]] [[gnu::always_inline]] inline FilterVolumes<Four> volumes_of(const Measured& x) {
-    const Pair vc = reinterpret_cast<Pair>(reinterpret_cast<PairMask>(x.meeting.vc) ^
-                                           reinterpret_cast<PairMask>(Pair{0.0, -0.0}));
+    const Pair vc =
+        reinterpret_cast<Pair>(reinterpret_cast<PairMask>(x.meeting.vc) ^ reinterpret_cast<PairMask>(Pair{0.0, -0.0}));
     return {Four::of(x.meeting.sb, vc), Four::of(Pair{x.s() - x.b() - x.c(), x.v() - x.s()}, Pair{})};
 }
 
 /// `u`: the unit of the volumes' numbers.
 template <class Four>
 [[nodiscard]] [[gnu::always_inline]] inline FilterVolumes<Four> errors_of(const Measured& x,
-                                                                    double u = Arithmetic<double>::unit) {
+                                                                          double u = Arithmetic<double>::unit) {
     const double a = 12 * u * (x.bar_sb[0] + x.bar_sb[1] + x.bar_vc[1]);
     const double end = 10 * u * (x.bar_sb[0] + x.bar_vc[0]);
     return {Four::all(9 * u) * Four::of(x.bar_sb, x.bar_vc), Four::of(Pair{a, end}, Pair{})};
@@ -68,8 +68,8 @@ template <class Four>
 /// Strict inequalities between exact values: a hit touches neither an edge nor a plane, so the closed rule and every
 /// perturbation of it agree. A miss does not even touch.
 template <class Four>
-[[gnu::always_inline]] inline void filter_volumes(const FilterVolumes<Four>& x, const FilterVolumes<Four>& e, Sides sides,
-                                                  Filtered& filtered) {
+[[gnu::always_inline]] inline void filter_volumes(const FilterVolumes<Four>& x, const FilterVolumes<Four>& e,
+                                                  Sides sides, Filtered& filtered) {
     // Bits of volumes that are certainly positive, and negative. None is either where it is NaN.
     constexpr unsigned k_b = 2;
     constexpr unsigned k_v = 4;
@@ -136,7 +136,8 @@ template <class Four = TwoPairs>
         unknown = unknown || w == k_unknown;
     }
     if (unknown) return Verdict::doubtful;
-    decision = closed_rule(-v, -end, sides, [&weights](int k) __attribute__((always_inline)) { return -weights[k]; });
+    decision = closed_rule(
+        -v, -end, sides, [&weights](int k) __attribute__((always_inline)) { return -weights[k]; });
     return decision.hit ? Verdict::hit : Verdict::miss;
 }
 

@@ -16,11 +16,11 @@ inline constexpr unsigned k_outwards = 8;  ///< off the plane, so that no term o
 
 /// Of a hit that starts off its face.
 struct PlaceOf {
-    double from[4];      ///< of the path
-    double grain;        ///< how far off the plane the point keeps, unless the start is nearer
-    double unit;         ///< the last place of the mesh's largest coordinate
-    double side;         ///< 1: the start is in front; -1: behind
-    double reach;        ///< how far from the true point a place may be, in units
+    double from[4];  ///< of the path
+    double grain;    ///< how far off the plane the point keeps, unless the start is nearer
+    double unit;     ///< the last place of the mesh's largest coordinate
+    double side;     ///< 1: the start is in front; -1: behind
+    double reach;    ///< how far from the true point a place may be, in units
 };
 
 /// The grain, in units in the last place of the mesh's largest |coordinate|.
@@ -44,7 +44,10 @@ inline constexpr double k_reach_units = k_grain_units + 8;
 
 [[nodiscard]] [[gnu::always_inline]] inline PlaceOf place_of(const Measured& measured, double grain, Sides side) {
     const Triple<Pair>& af = measured.lines.af;
-    return {{af.x[1], af.y[1], af.z[1], 0}, grain, grain / k_grain_units, side == Sides::front ? 1.0 : -1.0,
+    return {{af.x[1], af.y[1], af.z[1], 0},
+            grain,
+            grain / k_grain_units,
+            side == Sides::front ? 1.0 : -1.0,
             k_reach_units - 0.125};
 }
 

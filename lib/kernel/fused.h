@@ -89,8 +89,7 @@ struct OneRegister {
             const __m128i bits = _mm_castps_si128(_mm256_cvtpd_ps(x.x));
             const __m128i wanted = upper_halves(sign.x);
             const __m128i by = _mm_or_si128(_mm_srai_epi32(_mm_xor_si128(bits, wanted), 31), _mm_set1_epi32(1));
-            const __m128i least =
-                _mm_or_si128(_mm_and_si128(wanted, _mm_set1_epi32(INT32_MIN)), _mm_set1_epi32(1));
+            const __m128i least = _mm_or_si128(_mm_and_si128(wanted, _mm_set1_epi32(INT32_MIN)), _mm_set1_epi32(1));
             const __m128i next = _mm_blendv_epi8(_mm_add_epi32(bits, by), least, upper_halves(zero));
             return {_mm256_cvtps_pd(_mm_castsi128_ps(next))};
         } else {

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-#include <kernel/verdict.h>
 #include <kernel/values.h>
+#include <kernel/verdict.h>
 
 namespace pierce::detail {
 

@@ -17,7 +17,7 @@ struct NarrowOf {
                                                    Measured& measured) {
         const Scalar* x = row.first;
         const std::size_t n = row.stride;
-        const auto both_of = [x, n](std::size_t i, std::size_t j) __attribute__((always_inline)) {
+        const auto both_of = [ x, n ](std::size_t i, std::size_t j) __attribute__((always_inline)) {
             return Pair{static_cast<double>(x[i * n]), static_cast<double>(x[j * n])};
         };
         measure_lines<Scalar>({{both_of(3, 0), both_of(4, 1), both_of(5, 2)},

@@ -14,11 +14,11 @@ enum class Tried : std::uint8_t {
 
 /// Vectors have a fourth number that means nothing, but for `weights`. Errors are infinite where there is no bound.
 struct Values {
-    double weights[4];      ///< of a, b and c; then the fraction; each rounded, in [0, 1]
-    double weight_error;    ///< of each, before it was rounded
-    double fraction_error;  ///< before it was rounded
-    double normal[4];       ///< towards the front
-    double normal_error;    ///< of the normal as a vector, before it was rounded
+    double weights[4];        ///< of a, b and c; then the fraction; each rounded, in [0, 1]
+    double weight_error;      ///< of each, before it was rounded
+    double fraction_error;    ///< before it was rounded
+    double normal[4];         ///< towards the front
+    double normal_error;      ///< of the normal as a vector, before it was rounded
     double normal_errors[4];  ///< of each component, as it is here
     double length;            ///< |normal|
     double length_error;      ///< the sum of normal_errors

@@ -80,8 +80,8 @@ void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candi
     report(rounded, candidate.decision, scene.face_of_number(number), number, hit);
     // A limit that is nearer was meant for the caller's own segment: of ways it is 1.
     const OtherWays<Kernel, Scalar, Passed> ways{scene, path, triangle, passed, options, counters, list};
-    const int tries = place(path, candidate.measured, candidate.decision, scene.grain, values, rounded, counters, ways,
-                            hit);
+    const int tries =
+        place(path, candidate.measured, candidate.decision, scene.grain, values, rounded, counters, ways, hit);
     counters.retreats += static_cast<std::uint64_t>(tries);
 }
 

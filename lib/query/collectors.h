@@ -153,7 +153,8 @@ class All {
         hit.at_start = candidate_.decision.at_start;
         Values values;
         Rounded<Scalar> rounded;
-        certify(scene_.narrow(), candidate_.measured, path_, candidate_.decision, scene_.grain, counters_, values, rounded);
+        certify(scene_.narrow(), candidate_.measured, path_, candidate_.decision, scene_.grain, counters_, values,
+                rounded);
         hit.exact_fraction = rounded.weights[3];
     }
 

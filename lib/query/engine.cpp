@@ -47,7 +47,8 @@ std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
             Candidate other;
             if (masked(scene, triangle, options)) return false;
             if (!Certified::test(scene, triangle, path, options.sides, 1, counters, other)) return false;
-            if (options.accept && !accepted(scene, path, triangle, other.decision, other.measured, options, counters)) return false;
+            if (options.accept && !accepted(scene, path, triangle, other.decision, other.measured, options, counters))
+                return false;
             if (other.latest < candidate.earliest) return true;
             return other.earliest <= candidate.latest &&
                    compare_fractions(path, scene.corners(triangle), scene.corners(candidate.triangle)) < 0;

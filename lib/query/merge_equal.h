@@ -28,7 +28,7 @@ namespace pierce::detail {
 /// only. A table of at least twice as many places, probed one after another from where the hash says (Knuth, volume
 /// 3, 6.4).
 [[nodiscard]] inline std::vector<std::uint32_t> merge_equal(std::span<const Point> positions) {
-    constexpr std::size_t k_block = 16;  // so many places are asked for together
+    constexpr std::size_t k_block = 16;                  // so many places are asked for together
     constexpr std::uint64_t k_free = ~std::uint64_t{0};  // no position has this number
     const int bits = std::max(4, static_cast<int>(std::bit_width(2 * positions.size())));
     const std::size_t mask = (std::size_t{1} << bits) - 1;

@@ -172,8 +172,7 @@ class PlaceSearch {
     // The true point, moved by `by`, rounded. Where it is stopped, `blocker_` is what stops it.
     Found try_near(const Point& by, unsigned rounding, Hit<Scalar>& hit) {
         TwoPairs place{};
-        const Tried tried =
-            try_place<Scalar>(values_, of_, TwoPairs::load_point(by.data()), rounding, place);
+        const Tried tried = try_place<Scalar>(values_, of_, TwoPairs::load_point(by.data()), rounding, place);
         if (tried == Tried::unfit) return Found::unfit;
         const Point point{place.low[0], place.low[1], place.high[0]};
         return tried == Tried::far || is_exactly_far(point) ? take(point, true, hit) : Found::unfit;

@@ -20,7 +20,8 @@ void test_triangle(const Scene<Scalar>& scene, const Path& path, TriangleRef tri
         if (candidate.earliest > most) return;
         if (!fraction_at_most(path, scene.corners(triangle), most)) return;
     }
-    if (options.accept && !accepted(scene, path, triangle, candidate.decision, candidate.measured, options, counters)) return;
+    if (options.accept && !accepted(scene, path, triangle, candidate.decision, candidate.measured, options, counters))
+        return;
     collector.add();
 }
 

@@ -152,8 +152,8 @@ class VertexFans {
     std::vector<MeshReport::Edge> border_;
     // Of the vertex that is looked at:
     std::vector<Corner> corners_;
-    std::vector<std::uint64_t> spokes_;  ///< an edge's other vertex, and the corner
-    Sets fans_{0};                       ///< of corners
+    std::vector<std::uint64_t> spokes_;                              ///< an edge's other vertex, and the corner
+    Sets fans_{0};                                                   ///< of corners
     std::vector<std::pair<std::uint64_t, std::uint32_t>> opposite_;  ///< both other vertices, and the triangle
 };
 

@@ -28,7 +28,8 @@ struct Trusting {
         candidate.triangle = triangle;
         twin_of<Scalar>(scene).filter(scene.row(triangle), path.from.data(), path.to.data(), sides, candidate,
                                       candidate.measured);
-        return candidate.verdict == Verdict::hit && candidate.earliest < limit;  // so no two are ever left to the exact order
+        return candidate.verdict == Verdict::hit &&
+               candidate.earliest < limit;  // so no two are ever left to the exact order
     }
     template <class Scalar>
     static void certify(const Scene<Scalar>& scene, const Candidate& candidate, const Path&, QueryCounters&,
@@ -242,8 +243,9 @@ int main() {
         pierce::test::measure_parts<float>("float", name);
         pierce::test::measure_parts<double>("double", name);
     }
-    std::puts("| mesh         | scalar | set    | hits | ns exact | cost | exact decisions a test | exact values | "
-              "exact sides | different |");
+    std::puts(
+        "| mesh         | scalar | set    | hits | ns exact | cost | exact decisions a test | exact values | "
+        "exact sides | different |");
     std::puts("|---|---|---|---|---|---|---|---|---|---|");
     const double of_float = pierce::test::measure_all<float>("float");
     const double of_double = pierce::test::measure_all<double>("double");

@@ -3,8 +3,8 @@
 // And values in twice the precision are the same bits with fused operations and without.
 #include <exact/decide.h>
 #include <kernel/backends.h>
-#include <kernel/filter.h>
 #include <kernel/evaluate.h>
+#include <kernel/filter.h>
 #include <support/pairs.h>
 #include <support/whole.h>
 
@@ -48,9 +48,9 @@ struct Exact {
 struct Tally {
     int pairs = 0;
     int tame = 0;
-    int zeros = 0;     ///< bars of 0
-    int values = 0;    ///< hits whose values are as good as is asked for
-    double volume = 0; ///< largest error in parts of its bound
+    int zeros = 0;      ///< bars of 0
+    int values = 0;     ///< hits whose values are as good as is asked for
+    double volume = 0;  ///< largest error in parts of its bound
     double value = 0;
     double place = 0;
 };
@@ -91,7 +91,8 @@ void judge(const test::Pair& pair, double tolerance, Tally& tally) {
         const double error = error_in(values.normal_errors[k], values.normal[k], exact.n[k], 2 * k_unit);
         EXPECT_LE(error, 1) << "normal: " << describe(pair);
         const double bound = values.normal_error < length ? values.normal_error + 0x1p-52 * length : HUGE_VAL;
-        EXPECT_LE(bound == HUGE_VAL ? 0 : error_in(bound, values.normal[k], exact.n[k], 2 * k_unit), 1) << describe(pair);
+        EXPECT_LE(bound == HUGE_VAL ? 0 : error_in(bound, values.normal[k], exact.n[k], 2 * k_unit), 1)
+            << describe(pair);
     }
     if (!decide(pair.path, pair.corners, Sides::both).hit || !std::isfinite(values.weight_error)) return;
     // |x - y / s| <= e is |x s - y| <= e |s|, and a rounding of x, which is at most 1.
@@ -106,14 +107,17 @@ void judge(const test::Pair& pair, double tolerance, Tally& tally) {
     for (std::size_t k = 0; k < 3; ++k) near("weight", values.weights[k], exact.w[k], values.weight_error);
     for (std::size_t k = 0; k < 3; ++k) {
         const mpz_class from = whole(pair.path.from[k], k_unit);
-        const mpz_class error = abs((whole(values.high[k], k_unit) + whole(values.low[k], k_unit) - from) * exact.s - exact.v * exact.d[k]);
+        const mpz_class error =
+            abs((whole(values.high[k], k_unit) + whole(values.low[k], k_unit) - from) * exact.s - exact.v * exact.d[k]);
         const mpz_class bound = whole(values.error[k], k_unit) * abs(exact.s);
         EXPECT_LE(error, bound) << "place: " << describe(pair);
         if (bound != 0) tally.place = std::max(tally.place, mpq_class(error, bound).get_d());
     }
     const mpz_class far = whole(values.distance * (1 - 0x1p-51), 3 * k_unit);
     EXPECT_LE(far, abs(exact.v)) << "distance: " << describe(pair);
-    if (values.fraction_error <= tolerance * values.weights[3] && values.weight_error <= tolerance && values.normal_error <= tolerance * length) ++tally.values;
+    if (values.fraction_error <= tolerance * values.weights[3] && values.weight_error <= tolerance &&
+        values.normal_error <= tolerance * length)
+        ++tally.values;
 }
 
 // Pairs of all families, as they come (`power` 0) or scaled, beyond the ends of the range too, where one axis may be
@@ -166,8 +170,8 @@ TEST(Meeting, volumes_and_values_in_twice_the_precision_stay_within_their_bounds
 
 /// What the two tables differ in; empty: nothing. Vectors of values have three numbers.
 template <class Scalar>
-std::string difference(const NarrowKernels<Scalar>& one, const NarrowKernels<Scalar>& two, const test::Pair& pair, Random& random,
-                       int& hits) {
+std::string difference(const NarrowKernels<Scalar>& one, const NarrowKernels<Scalar>& two, const test::Pair& pair,
+                       Random& random, int& hits) {
     std::array<Scalar, 9> numbers{};
     for (std::size_t k = 0; k < 9; ++k) numbers[k] = static_cast<Scalar>(pair.corners[k / 3][k % 3]);
     const Row<Scalar> row{numbers.data(), 1};
@@ -178,7 +182,8 @@ std::string difference(const NarrowKernels<Scalar>& one, const NarrowKernels<Sca
     Measured of_y;
     one.filter(row, pair.path.from.data(), pair.path.to.data(), sides, x, of_x);
     two.filter(row, pair.path.from.data(), pair.path.to.data(), sides, y, of_y);
-    if (x.verdict != y.verdict || x.decision.hit != y.decision.hit || x.decision.at_start != y.decision.at_start) return "verdict";
+    if (x.verdict != y.verdict || x.decision.hit != y.decision.hit || x.decision.at_start != y.decision.at_start)
+        return "verdict";
     if (x.verdict != Verdict::miss && (x.earliest != y.earliest || x.latest != y.latest)) return "interval";
     const double grain = std::ldexp(1.0, random.between_ints(-60, 10));
     for (const auto evaluate : {&NarrowKernels<Scalar>::evaluate, &NarrowKernels<Scalar>::evaluate_finely}) {
@@ -195,13 +200,15 @@ std::string difference(const NarrowKernels<Scalar>& one, const NarrowKernels<Sca
         if (!std::isfinite(v.weight_error)) continue;
         ++hits;
         if (!same(v.weights, w.weights, 4) || v.fraction_error != w.fraction_error) return "weights";
-        if (!same(v.normal, w.normal, 3) || !same(v.normal_errors, w.normal_errors, 3) || v.normal_error != w.normal_error ||
-            v.length != w.length || v.length_error != w.length_error || v.distance != w.distance)
+        if (!same(v.normal, w.normal, 3) || !same(v.normal_errors, w.normal_errors, 3) ||
+            v.normal_error != w.normal_error || v.length != w.length || v.length_error != w.length_error ||
+            v.distance != w.distance)
             return "normal";
         if (!same(v.high, w.high, 3) || !same(v.low, w.low, 3) || !same(v.error, w.error, 3)) return "place";
         if (!same(v.position, w.position, 3) || v.rounded != w.rounded || v.located != w.located) return "position";
         if (!same(v.point, w.point, 3) || v.tried != w.tried) return "point";
-        if (!same(r.point, s.point, 3) || !same(r.position, s.position, 3) || !same(r.normal, s.normal, 3) || !same(r.weights, s.weights, 4))
+        if (!same(r.point, s.point, 3) || !same(r.position, s.position, 3) || !same(r.normal, s.normal, 3) ||
+            !same(r.weights, s.weights, 4))
             return "rounded";
     }
     return {};

@@ -2,8 +2,8 @@
 // against rational numbers, for float and double, on generic and on delicate pairs, whichever arithmetic they came
 // from.
 #include <gtest/gtest.h>
-#include <pierce/pierce.h>
 #include <kernel/evaluate.h>
+#include <pierce/pierce.h>
 #include <query/values.h>
 #include <support/oracles.h>
 #include <support/pairs.h>
@@ -47,10 +47,13 @@ void check_values() {
         detail::Values values;
         detail::measure_path<Scalar>(pair.corners, pair.path, measured);
         detail::evaluate<Scalar, detail::TwoPairs>(measured, measured.meeting, 1, values);
-        if (counters.exact_values > 0) ++exact_values;
+        if (counters.exact_values > 0)
+            ++exact_values;
         else if (values.weight_error <= tolerance && values.fraction_error <= tolerance * values.weights[3] &&
-                 values.normal_error <= tolerance * values.length) ++coarse;
-        else ++fine;
+                 values.normal_error <= tolerance * values.length)
+            ++coarse;
+        else
+            ++fine;
         exact_sides += counters.exact_sides > 0 ? 1 : 0;
         fraction = std::max(fraction, ulps(hit->exact_fraction, exact.fraction(), CGAL::to_double(exact.fraction())));
         ASSERT_LE(Q(double(hit->fraction)), exact.fraction()) << "a lower bound: " << describe(pair);
@@ -82,8 +85,10 @@ void check_values() {
     EXPECT_GT(exact_values, sizeof(Scalar) == sizeof(float) ? 10 : 500);
     // For float, double-double says the side wherever it says the place.
     if (std::is_same_v<Scalar, double>) EXPECT_GT(exact_sides, 10);
-    if (std::is_same_v<Scalar, float>) EXPECT_GT(coarse, 500);
-    else EXPECT_EQ(coarse, 0);
+    if (std::is_same_v<Scalar, float>)
+        EXPECT_GT(coarse, 500);
+    else
+        EXPECT_EQ(coarse, 0);
     EXPECT_LE(fraction, 1);
     EXPECT_LE(weight, 1);
     EXPECT_LE(normal, 4);
