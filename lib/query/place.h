@@ -93,6 +93,11 @@ class PlaceSearch {
     bool find_near(Hit<Scalar>& hit) {
         if (try_near(off_, k_outwards, hit) == Tried::clear) return true;
         if (try_near(off_, k_to_nearest, hit) == Tried::clear) return true;
+        return find_around(hit);
+    }
+    // Not inlined: what Nearby takes is on the stack only where it is needed.
+    [[gnu::noinline]] bool find_around(Hit<Scalar>& hit) {
+        const typename Ways::Nearby nearby(ways_);
         Around around{high_, low_, unit_, {}};
         for (std::size_t k = 0; k < 3; ++k)
             around.rounding[k] = last_place<Scalar>(std::abs(high_[k]) + k_reach_units * unit_) / unit_ / 2;
@@ -114,9 +119,10 @@ class PlaceSearch {
     // The last resort for corners whose half-spaces have a place that is too thin for any rounding tried: each point of
     // a lattice of one unit.
     bool find_in_ball(Hit<Scalar>& hit) {
-        return each_in_ball(k_reach_units, [&](int x, int y, int z) {
+        static constexpr LatticeBall<static_cast<int>(k_reach_units)> k_ball;
+        for (const auto& [x, y, z] : k_ball) {
             const Point by{x * unit_, y * unit_, z * unit_};
-            if (dot_product(by, unit_normal_) < off_length_ - unit_) return false;  // P was rounded
+            if (dot_product(by, unit_normal_) < off_length_ - unit_) continue;  // P was rounded
             Point point{};
             double square = 0;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -125,9 +131,11 @@ class PlaceSearch {
                 const double off = ((point[k] - high_[k]) - low_[k]) / unit_;
                 square += off * off;
             }
-            return square <= reach_ * reach_ && is_finite_and_far(point) && ways_.clear(point, true) &&
-                   take(point, true, hit) == Tried::clear;
-        });
+            if (square <= reach_ * reach_ && is_finite_and_far(point) && ways_.clear(point, true) &&
+                take(point, true, hit) == Tried::clear)
+                return true;
+        }
+        return false;
     }
 
     // Tries the nearest point of the half-spaces; if a triangle is in the way, goes on with each way out, the nearest
