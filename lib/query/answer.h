@@ -44,6 +44,7 @@ struct OtherWays {
     mutable Nearby* nearby = nullptr;  ///< where many near places are asked about
     mutable unsigned last = 0;  ///< of the list, what stopped a way: likely to stop the next one too
 
+    [[nodiscard]] bool hides(const Point& point) const { return nearby != nullptr && nearby->hides(point); }
     [[nodiscard]] bool clear(const Point& point, bool near) const {
         const Path way{path.from, point};
         Any any(passed, own);

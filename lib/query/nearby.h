@@ -24,7 +24,9 @@ namespace pierce::detail {
 template <class Ways>
 class Nearby {
   public:
-    explicit Nearby(const Ways& ways) : ways_(ways), unit_(ways.scene.grain / k_grain_units) { ways.nearby = this; }
+    explicit Nearby(const Ways& ways) : ways_(ways),
+          unit_(ways.scene.grain / k_grain_units),
+          per_unit_(1 / unit_) { ways.nearby = this; }
     ~Nearby() { ways_.nearby = nullptr; }
     Nearby(const Nearby&) = delete;
     Nearby& operator=(const Nearby&) = delete;
@@ -33,10 +35,14 @@ class Nearby {
     [[nodiscard]] bool knows(const Point& point) {
         if (state_ == State::unused) state_ = State::asked;
         else if (state_ == State::asked) state_ = gather(point) ? State::ready : State::useless;
-        if (state_ != State::ready) return false;
-        for (std::size_t k = 0; k < 3; ++k) place_[k] = (point[k] - origin_[k]) / unit_;
-        return std::abs(place_[0]) <= Shadow::k_most && std::abs(place_[1]) <= Shadow::k_most &&
-               std::abs(place_[2]) <= Shadow::k_most;
+        return state_ == State::ready && is_at(point);
+    }
+
+    /// Whether a place is certainly not clear, from what is known already: a few nanoseconds.
+    [[nodiscard]] bool hides(const Point& point) {
+        if (state_ != State::ready || !is_at(point)) return false;
+        const std::uint8_t last = last_[cell()];
+        return last != k_none && shadows_[last].hides(place_);
     }
 
     /// Of the place that knows() was asked about. Calls `test(triangle)` for those that may be in the way to it.
@@ -50,7 +56,6 @@ class Nearby {
     template <class Test>
     [[nodiscard]] bool clear(Test&& test) {
         std::uint8_t& last = last_[cell()];
-        if (last != k_none && shadows_[last].hides(place_)) return false;
         std::array<std::uint8_t, k_most_triangles> unsure;
         unsigned left = 0;
         for (unsigned i = 0; i < count_; ++i) {
@@ -81,8 +86,15 @@ class Nearby {
     static constexpr std::uint8_t k_none = 255;
     enum class State : std::uint8_t { unused, asked, ready, useless };
 
+    [[nodiscard]] bool is_at(const Point& point) {
+        for (std::size_t k = 0; k < 3; ++k) place_[k] = (point[k] - origin_[k]) * per_unit_;
+        return std::abs(place_[0]) <= Shadow::k_most && std::abs(place_[1]) <= Shadow::k_most &&
+               std::abs(place_[2]) <= Shadow::k_most;
+    }
+
     // All triangles that could be in a near way, and their shadows; false if they are too many.
     bool gather(const Point& point) {
+        if (!std::isfinite(per_unit_)) return false;  // of a unit that is denormal
         origin_ = point;
         const auto* const list = ways_.list;
         if (list != nullptr && list->complete) {
@@ -142,6 +154,7 @@ class Nearby {
 
     const Ways& ways_;
     double unit_;
+    double per_unit_;  ///< as exact: a power of two
     State state_ = State::unused;
     unsigned count_ = 0;
     double limit_ = 1;

@@ -119,24 +119,41 @@ class PlaceSearch {
     // The last resort for corners whose half-spaces have a place that is too thin for any rounding tried: each point of
     // a lattice of one unit.
     bool find_in_ball(Hit<Scalar>& hit) {
-        static constexpr LatticeBall<static_cast<int>(k_reach_units)> k_ball;
-        for (const auto& [x, y, z] : k_ball) {
-            const Point by{x * unit_, y * unit_, z * unit_};
-            if (dot_product(by, unit_normal_) < off_length_ - unit_) continue;  // P was rounded
-            Point point{};
-            double square = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto near = static_cast<double>(static_cast<Scalar>(high_[k]));
-                point[k] = static_cast<double>(static_cast<Scalar>(near + by[k]));
-                const double off = ((point[k] - high_[k]) - low_[k]) / unit_;
-                square += off * off;
+        // All that is asked of a place is a sum over its coordinates, each one of 25 numbers.
+        static constexpr LatticeBall<k_most_steps> k_ball;
+        std::array<std::array<Step, 2 * k_most_steps + 1>, 3> steps;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto near = static_cast<double>(static_cast<Scalar>(high_[k]));
+            for (int step = -k_most_steps; step <= k_most_steps; ++step) {
+                const double by = step * unit_;
+                const auto to = static_cast<double>(static_cast<Scalar>(near + by));
+                const double off = ((to - high_[k]) - low_[k]) / unit_;
+                steps[k][static_cast<std::size_t>(step + k_most_steps)] = {to, by * unit_normal_[k], off * off};
             }
-            if (square <= reach_ * reach_ && is_finite_and_far(point) && ways_.clear(point, true) &&
+        }
+        const double least = off_length_ - unit_;  // P was rounded
+        const double most = reach_ * reach_;
+        for (const auto& place : k_ball) {
+            const auto at = [&](std::size_t k, int step) -> const Step& {
+                return steps[k][static_cast<std::size_t>(step + k_most_steps)];
+            };
+            const Step& x = at(0, place.x);
+            const Step& y = at(1, place.y);
+            const Step& z = at(2, place.z);
+            if (x.out + y.out + z.out < least || !(x.square + y.square + z.square <= most)) continue;
+            const Point point{x.to, y.to, z.to};
+            if (!ways_.hides(point) && is_finite_and_far(point) && ways_.clear(point, true) &&
                 take(point, true, hit) == Tried::clear)
                 return true;
         }
         return false;
     }
+    static constexpr int k_most_steps = static_cast<int>(k_reach_units);
+    struct Step {
+        double to;      ///< the coordinate
+        double out;     ///< its part in how far that is from the plane
+        double square;  ///< of its distance from the true point, in units
+    };
 
     // Tries the nearest point of the half-spaces; if a triangle is in the way, goes on with each way out, the nearest
     // first.
@@ -329,6 +346,8 @@ class PlaceSearch {
 ///                                          the true one in each coordinate; if so, the corners of the first, and how
 ///                                          it is hit
 ///   bool clear(point, near)            whether none stops the way to a point, near as above or any
+///   bool hides(point)                  whether one that stops the way to a near point is known already
+///   Nearby                             is made from `ways`, and lives while many near points are asked about
 /// `from` itself needs no proof. `exact`: the true fraction, rounded once. Returns how many points were not clear.
 template <class Scalar, class Face, class Ways>
 int place(const Path& path, const Corners& corners, const Decision& decision, double grain, double exact, Face& face,

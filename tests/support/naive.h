@@ -118,6 +118,10 @@ class NaiveMesh {
         std::size_t at;
         const QueryOptions& options;
 
+        struct Nearby {
+            explicit Nearby(const OtherWays&) {}
+        };
+        [[nodiscard]] bool hides(const detail::Point&) const { return false; }
         [[nodiscard]] bool clear(const detail::Point& point, bool) const { return !first(point); }
         bool stops(const detail::Point& point, detail::Corners& corners, detail::Decision& decision) const {
             const auto stop = first(point);
