@@ -159,20 +159,23 @@ class PlaceSearch {
     // first.
     bool find_clear(const Around& around, HalfSpaces& chosen, Hit<Scalar>& hit) {
         Point x{};
-        if (tries_ >= most_tries_ || !chosen.nearest(reach_, x)) return false;
+        return tries_ < most_tries_ && chosen.nearest(reach_, x) && find_clear_from(around, chosen, x, hit);
+    }
+    // `x`: their nearest point.
+    bool find_clear_from(const Around& around, HalfSpaces& chosen, const Point& x, Hit<Scalar>& hit) {
         Point by{};
         for (std::size_t k = 0; k < 3; ++k) by[k] = unit_ * x[k];
         if (!try_roundings(by, hit)) return found_;
         if (chosen.full()) return false;
         WaysOut ways(blocker_, blocked_, path_.from, around);
         std::array<double, 4> cost{};
+        std::array<Point, 4> there{};
         for (std::size_t i = 0; i < ways.count; ++i) {
             HalfSpace& out = ways.all[i];
             // A point beyond it and yet stopped: by what the plane's own rounding is.
             out.least = std::max(out.least, dot_product(out.normal, x) + around.slack(out.normal) / 2 + 0x1p-4);
-            Point there{};
             chosen.push(out);
-            cost[i] = chosen.nearest(reach_, there) ? dot_product(there, there) : HUGE_VAL;
+            cost[i] = chosen.nearest(reach_, there[i]) ? dot_product(there[i], there[i]) : HUGE_VAL;
             chosen.pop();
         }
         for (std::size_t n = 0; n < ways.count; ++n) {
@@ -181,7 +184,7 @@ class PlaceSearch {
             if (cost[least] == HUGE_VAL) return false;
             cost[least] = HUGE_VAL;
             chosen.push(ways.all[least]);
-            if (find_clear(around, chosen, hit)) return true;
+            if (tries_ < most_tries_ && find_clear_from(around, chosen, there[least], hit)) return true;
             chosen.pop();
         }
         return false;
