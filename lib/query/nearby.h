@@ -22,14 +22,14 @@
 
 namespace pierce::detail {
 
-/// While it lives, it answers for `ways`, an OtherWays, about near places: from the second on, as one alone isn't worth
-/// it. About 40 kB.
+/// While it lives, it answers for `ways`, an OtherWays, about near places. About 40 kB, not set until they are needed.
 template <class Ways>
 class Nearby {
   public:
-    explicit Nearby(const Ways& ways) : ways_(ways),
-          unit_(ways.scene.grain / k_grain_units),
-          per_unit_(1 / unit_) { ways.nearby = this; }
+    explicit Nearby(const Ways& ways)
+        : ways_(ways), unit_(ways.scene.grain / k_grain_units), per_unit_(1 / unit_) {
+        ways.nearby = this;
+    }
     ~Nearby() { ways_.nearby = nullptr; }
     Nearby(const Nearby&) = delete;
     Nearby& operator=(const Nearby&) = delete;
@@ -105,7 +105,8 @@ class Nearby {
                std::abs(place_[2]) <= Shadow::k_most;
     }
 
-    // All triangles that could be in a near way, and their shadows; false if they are too many.
+    // All triangles that could be in a near way, and their shadows; false if they are too many. `point` becomes the
+    // origin: the others are within twice `near_bound` of it, 24 units, which Shadow has room for.
     bool gather(const Point& point) {
         if (!std::isfinite(per_unit_)) return false;  // of a unit that is denormal
         origin_ = point;
@@ -129,8 +130,12 @@ class Nearby {
     }
     void add(TriangleRef triangle) {
         if (triangle == ways_.own || masked(ways_.scene, triangle, ways_.options)) return;
+        Shadow& shadow = shadows_[count_];
+        shadow = Shadow(ways_.scene.corners(triangle), ways_.path.from, origin_, unit_);
+        const Sides sides = ways_.options.sides;
+        if ((sides == Sides::front && shadow.start_side() < 0) || (sides == Sides::back && shadow.start_side() > 0))
+            return;
         triangles_[count_] = triangle;
-        shadows_[count_] = Shadow(ways_.scene.corners(triangle), ways_.path.from, origin_, unit_);
         stops_[count_++] = false;
     }
 
@@ -174,7 +179,8 @@ class Nearby {
         for (unsigned i = 0; i < count_ && least < k_most * k_most; ++i) {
             const Corners corners = ways_.scene.corners(triangles_[i]);
             for (std::size_t k = 0; k < 3; ++k)
-                if (corners[k] == tip) fill(i, difference_of(corners[(k + 1) % 3], tip), difference_of(corners[(k + 2) % 3], tip));
+                if (corners[k] == tip)
+                    fill(i, difference_of(corners[(k + 1) % 3], tip), difference_of(corners[(k + 2) % 3], tip));
         }
     }
     // The directions from p to q, the shorter way.
@@ -194,7 +200,8 @@ class Nearby {
     using Flat = std::array<double, 2>;
     // Along the ways, which are all but parallel, to where the depth is the origin's.
     [[nodiscard]] Flat projected(const Point& place) const {
-        return {place[(depth_ + 1) % 3] - slope_[0] * place[depth_], place[(depth_ + 2) % 3] - slope_[1] * place[depth_]};
+        return {place[(depth_ + 1) % 3] - slope_[0] * place[depth_],
+                place[(depth_ + 2) % 3] - slope_[1] * place[depth_]};
     }
     // From 0 on all around the middle.
     [[nodiscard]] unsigned direction(const Flat& place) const {

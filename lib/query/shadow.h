@@ -35,7 +35,7 @@ class Shadow {
     /// plane are y and g: differences as well, each off by u of itself. So of normal . (y + g) the products and sums
     /// lose 4.1 u M sum(|y| + |g|), the normal's own error 4.2 u M as much, and the sum with the bound below 1.1 u M of
     /// it: 9.4 in all. Twice as much, less what is kept for the roundings here and for underflow, is 16 u M.
-    Shadow(const Corners& corners, const Point& from, const Point& origin, double unit) {
+    Shadow(const Corners& corners, const Point& from, const Point& origin, double unit) : start_side_(0) {
         const Point u = difference_of(corners[1], corners[0]);
         const Point w = difference_of(corners[2], corners[0]);
         std::array<Point, 3> seen{};
@@ -52,13 +52,14 @@ class Shadow {
         // On which side the start is.
         const Point normal = cross_product(u, w);
         const double scale = 2 * largest(u) * largest(w);
-        const double side = -dot_product(normal, seen[0]);
+        const double distance = -dot_product(normal, seen[0]);
         const double error = k_error * scale * sum(seen[0]);
-        if (!(scale > k_least && error < k_largest && std::abs(side) > error + k_least)) {
+        if (!(scale > k_least && error < k_largest && std::abs(distance) > error + k_least)) {
             planes_.fill(Plane::none());
             return;
         }
-        const double sign = std::copysign(1.0, side);
+        const double sign = std::copysign(1.0, distance);
+        start_side_ = distance > 0 ? 1 : -1;
 
         // The edges first: of many faces around a corner all but one or two are told by these.
         for (std::size_t k = 0; k < 3; ++k) {
@@ -69,6 +70,9 @@ class Shadow {
         }
         planes_[3] = Plane::through(normal, scale, sign, at[nearer(0, nearer(1, 2))]);
     }
+
+    /// Of the start: 1 in front of the triangle, -1 behind it, 0 where that is not certain.
+    [[nodiscard]] int start_side() const { return start_side_; }
 
     /// `place`: relative to the origin, in units, each coordinate rounded once.
     ///
@@ -119,6 +123,7 @@ class Shadow {
         }
     };
     std::array<Plane, 4> planes_;
+    int start_side_;
 };
 
 }  // namespace pierce::detail

@@ -91,8 +91,9 @@ TEST(Spikes, faces_are_not_tested_for_each_place) {
         const std::uint64_t in_float = most_tests<float>(faces);
         const std::uint64_t in_double = most_tests<double>(faces);
         std::cout << faces << " faces: at most " << in_float << " tests a hit in float, " << in_double << " in double\n";
-        EXPECT_LE(in_float, 0);
-        EXPECT_LE(in_double, 0);
+        // Three ways past all of them, some hundred tries at a few faces each, and then each face once or twice.
+        EXPECT_LE(in_float, 400 + 20 * faces);
+        EXPECT_LE(in_double, 400 + 20 * faces);
     }
 }
 
@@ -138,20 +139,20 @@ void expect_naive_answers(std::uint32_t faces, int meshes, int segments) {
 }
 
 TEST(Spikes, naive_answers_with_3_faces) {
-    expect_naive_answers<float>(3, 10, 40);
-    expect_naive_answers<double>(3, 10, 40);
+    expect_naive_answers<float>(3, 40, 40);
+    expect_naive_answers<double>(3, 40, 40);
 }
 TEST(Spikes, naive_answers_with_12_faces) {
-    expect_naive_answers<float>(12, 5, 20);
-    expect_naive_answers<double>(12, 5, 20);
+    expect_naive_answers<float>(12, 20, 20);
+    expect_naive_answers<double>(12, 20, 20);
 }
 TEST(Spikes, naive_answers_with_50_faces) {
-    expect_naive_answers<float>(50, 3, 10);
-    expect_naive_answers<double>(50, 3, 10);
+    expect_naive_answers<float>(50, 10, 10);
+    expect_naive_answers<double>(50, 10, 10);
 }
 TEST(Spikes, naive_answers_with_200_faces) {
-    expect_naive_answers<float>(200, 2, 10);
-    expect_naive_answers<double>(200, 2, 10);
+    expect_naive_answers<float>(200, 5, 10);
+    expect_naive_answers<double>(200, 5, 10);
 }
 
 // What a shadow says is so: for triangles of all shapes and starts close to their planes, of places within parts of a
@@ -199,11 +200,11 @@ void expect_true_shadows(double scale, Told& told) {
 }
 
 TEST(Spikes, shadows_say_what_exact_arithmetic_says) {
-    for (const double scale : {1.0, 1e100, 1e-100, 1e300, 1e-290}) {
+    for (const double scale : {1.0, 1e80, 1e-80, 1e300, 1e-290}) {
         Told told;
         expect_true_shadows(scale, told);
         std::cout << scale << ": " << told.beside << " beside, " << told.hidden << " hidden, " << told.unsure << " unsure\n";
-        if (scale > 1e-200 && scale < 1e200) {
+        if (scale > 1e-200 && scale < 1e200) {  // beyond, products of three lengths leave a double's range
             EXPECT_GT(told.beside, 10'000);
             EXPECT_GT(told.hidden, 10'000);
             EXPECT_GT(told.unsure, 1'000);
