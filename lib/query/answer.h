@@ -83,10 +83,12 @@ struct OtherWays {
     }
 
   private:
-    // One of the list's. What was measured for the path itself has the way's start.
+    // One of the list's. What was measured for the path itself has the way's start; of a masked one nothing was.
     template <class Collector>
     void test(const Path& way, unsigned i, Collector& collector) const {
-        if (list->triangles[i] == own || (i < List::k_measured && stays_on_one_side(list->measured[i], way.to))) return;
+        if (list->triangles[i] == own || masked(scene, list->triangles[i], options) ||
+            (i < List::k_measured && stays_on_one_side(list->measured[i], way.to)))
+            return;
         test_triangle<Kernel>(scene, way, list->triangles[i], options, 1, counters, collector);
     }
 };
