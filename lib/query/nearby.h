@@ -3,7 +3,7 @@
 //
 // In the tip of a thin spike, seen from inside, no place near the hit is clear, and place.h asks about some 2,000 of
 // them. With a full test of each triangle, 50 to 200 ns, or a traversal for each where there are more than a list
-// holds, that took 0.5 ms between 3 faces and 30 ms between 200. A shadow answers in a few nanoseconds, for all but the
+// holds, that took 0.5 ms with 3 faces and 30 ms with 200. A shadow answers in a few nanoseconds, for all but the
 // places on its rim; those, and the first of each triangle's hits, are left to the full test. So each answer is what it
 // was.
 #pragma once

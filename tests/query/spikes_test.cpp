@@ -1,5 +1,5 @@
-// The tips of thin spikes, seen from inside: no place near the hit is clear, and some 2,000 are asked about. Each took a
-// test of all the faces that meet there, 0.5 ms a hit with 3 faces and 30 ms with 200; now what is certain of a face's
+// The tips of thin spikes, seen from inside: no place near the hit is clear, and some 2,000 are asked about. Each took
+// a test of all the faces that meet there, 0.5 ms a hit with 3 faces and 30 ms with 200; now what is certain of a face's
 // shadow is not tested (query/nearby.h). Counted are full tests of a triangle, which a kernel of the test's own sees.
 // The judges are the naive twin, which knows no shadows, and exact arithmetic.
 #include <Eigen/Geometry>
@@ -60,8 +60,9 @@ std::uint64_t g_tests = 0;
 
 struct Counting : detail::Certified {
     template <class Scalar>
-    static bool test(const detail::Corners& corners, detail::TriangleRef triangle, const detail::Path& path, Sides sides, double limit,
-                     QueryCounters& counters, detail::Measured& measured, detail::Candidate& candidate) {
+    static bool test(const detail::Corners& corners, detail::TriangleRef triangle, const detail::Path& path,
+                     Sides sides, double limit, QueryCounters& counters, detail::Measured& measured,
+                     detail::Candidate& candidate) {
         ++g_tests;
         return Certified::test<Scalar>(corners, triangle, path, sides, limit, counters, measured, candidate);
     }
@@ -78,7 +79,8 @@ std::uint64_t most_tests(std::uint32_t faces) {
         for (int i = 0; i < 20; ++i) {
             QueryCounters counters;
             g_tests = 0;
-            const auto hit = detail::first_answer<Counting>(scene, detail::to_path(spike.segment(random)), {.sides = Sides::both}, counters);
+            const auto hit = detail::first_answer<Counting>(scene, detail::to_path(spike.segment(random)),
+                                                            {.sides = Sides::both}, counters);
             hits += hit ? 1 : 0;
             most = std::max(most, g_tests);
         }
@@ -90,7 +92,8 @@ TEST(Spikes, faces_are_not_tested_for_each_place) {
     for (const std::uint32_t faces : {3U, 12U, 50U, 200U}) {
         const std::uint64_t in_float = most_tests<float>(faces);
         const std::uint64_t in_double = most_tests<double>(faces);
-        std::cout << faces << " faces: at most " << in_float << " tests a hit in float, " << in_double << " in double\n";
+        std::cout << faces << " faces: at most " << in_float << " tests a hit in float, " << in_double
+                  << " in double\n";
         // Three ways past all of them, some hundred tries at a few faces each, and then each face once or twice.
         EXPECT_LE(in_float, 400 + 20 * faces);
         EXPECT_LE(in_double, 400 + 20 * faces);
@@ -175,7 +178,8 @@ void expect_true_shadows(double scale, Told& told) {
         const std::array<double, 3> w = {random.unit(), random.unit(), random.unit()};
         const V inside = (w[0] * a + w[1] * b + w[2] * c) / (w[0] + w[1] + w[2]);
         const double flat = random.chance(0.3) ? std::exp(random.between(-35, 0)) : 1;
-        const V from = random.chance(0.3) ? V(inside + near(flat)) : V(middle + (b - a) * random.unit() + (c - a) * random.unit() + near(flat));
+        const V in_plane = middle + (b - a) * random.unit() + (c - a) * random.unit();
+        const V from = near(flat) + (random.chance(0.3) ? inside : in_plane);
         const detail::Corners corners = {detail::to_point(a), detail::to_point(b), detail::to_point(c)};
         const double unit = std::exp2(std::floor(std::log2(scale))) * (random.chance(0.5) ? 0x1p-52 : 0x1p-23);
         const V at = std::array{a, V(a + random.unit() * (b - a)), inside}[random.below(3)];
@@ -186,7 +190,8 @@ void expect_true_shadows(double scale, Told& told) {
             detail::Point relative;
             for (std::size_t k = 0; k < 3; ++k) relative[k] = (place[int(k)] - origin[int(k)]) / unit;
             const detail::Seen seen = shadow.seen(relative);
-            const auto decision = detail::decide({detail::to_point(from), detail::to_point(place)}, corners, Sides::both);
+            const detail::Path way{detail::to_point(from), detail::to_point(place)};
+            const auto decision = detail::decide(way, corners, Sides::both);
             EXPECT_EQ(shadow.hides(relative), seen == detail::Seen::hidden);
             if (seen == detail::Seen::hidden) {
                 ASSERT_TRUE(decision.hit && !decision.at_start) << i;
@@ -203,7 +208,8 @@ TEST(Spikes, shadows_say_what_exact_arithmetic_says) {
     for (const double scale : {1.0, 1e80, 1e-80, 1e300, 1e-290}) {
         Told told;
         expect_true_shadows(scale, told);
-        std::cout << scale << ": " << told.beside << " beside, " << told.hidden << " hidden, " << told.unsure << " unsure\n";
+        std::cout << scale << ": " << told.beside << " beside, " << told.hidden << " hidden, " << told.unsure
+                  << " unsure\n";
         if (scale > 1e-200 && scale < 1e200) {  // beyond, products of three lengths leave a double's range
             EXPECT_GT(told.beside, 10'000);
             EXPECT_GT(told.hidden, 10'000);
