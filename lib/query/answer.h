@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <query/collectors.h>
+#include <query/nearby.h>
 #include <query/place.h>
 #include <query/report.h>
 #include <query/traverse.h>
@@ -14,6 +15,8 @@ namespace pierce::detail {
 /// to that.
 template <class Kernel, class Scalar, class Passed>
 struct OtherWays {
+    using Nearby = detail::Nearby<OtherWays>;
+
     const Scene<Scalar>& scene;
     const Path& path;
     TriangleRef own;
@@ -22,9 +25,19 @@ struct OtherWays {
     QueryCounters& counters;
     const Shortlist* list;  ///< null: none was kept
 
+    mutable Nearby* nearby = nullptr;  ///< where many near places are asked about
     mutable unsigned last = 0;  ///< of the list, what stopped a way: likely to stop the next one too
 
+    [[nodiscard]] bool hides(const Point& point) const { return nearby != nullptr && nearby->hides(point); }
     [[nodiscard]] bool clear(const Point& point, bool near) const {
+        if (near && nearby != nullptr && nearby->knows(point)) {
+            const Path way{path.from, point};
+            Any any(passed, own);
+            return nearby->clear([&](TriangleRef triangle) {
+                test_triangle<Kernel>(scene, way, triangle, options, 1, counters, any);
+                return any.found();
+            });
+        }
         if (near && list != nullptr && list->complete) {
             if (last > 0 && is_hit(point, last)) return false;
             for (unsigned i = 0; i < list->count; ++i) {
@@ -41,7 +54,11 @@ struct OtherWays {
     [[nodiscard]] bool stops(const Point& point, Corners& corners, Decision& decision) const {
         const Path way{path.from, point};
         FirstOther<Scalar, Passed> first(scene, way, counters, passed, own);
-        if (list != nullptr && list->complete) {
+        if (nearby != nullptr && nearby->knows(point)) {
+            nearby->each([&](TriangleRef triangle) {
+                test_triangle<Kernel>(scene, way, triangle, options, 1, counters, first);
+            });
+        } else if (list != nullptr && list->complete) {
             for (unsigned i = 0; i < list->count; ++i) test(way, i, first);
         } else {
             traverse<Kernel>(scene, way, options, 1, counters, first);

@@ -15,10 +15,10 @@
 // each place on a lattice of one unit is tried; and only then points back along the way from the start.
 //
 // Cost: a half-space takes 64 sweeps of at most 8, a few microseconds in the worst case; a try is a query among the
-// triangles of the shortlist. There are 2 * `k_most_tries` + 8 tries at most, and the lattice has 7,153 places, of
-// which
-// those a grain off the plane are asked about (some 1,900). That happens a few times in 10^5 hits on bumpy meshes. What
-// this does not find are clear places that hold no point of that lattice and are missed by all eight roundings.
+// triangles of the shortlist. There are 2 * `k_most_tries` + 8 tries at most, and the lattice has 7,152 places, some
+// 1,900 of them a grain off the plane: all but a few are known to be hidden without being asked about (nearby.h). That
+// happens a few times in 10^5 hits on bumpy meshes, and in the tips of thin spikes seen from inside. What this does not
+// find are clear places that hold no point of that lattice and are missed by all eight roundings.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@
 #include <pierce/hit.h>
 #include <query/grain.h>
 #include <query/half_spaces.h>
-#include <query/lattice_ball.h>
+#include <query/lattice_places.h>
 #include <query/values.h>
 
 namespace pierce::detail {
@@ -76,6 +76,11 @@ class PlaceSearch {
     bool find_near(Hit<Scalar>& hit) {
         if (try_near(off_, k_outwards, hit) == Found::clear) return true;
         if (try_near(off_, k_to_nearest, hit) == Found::clear) return true;
+        return find_around(hit);
+    }
+    // Not inlined: what Nearby takes is on the stack only where it is needed.
+    [[gnu::noinline]] bool find_around(Hit<Scalar>& hit) {
+        const typename Ways::Nearby nearby(ways_);
         Around around{high_, low_, unit_, {}};
         for (std::size_t k = 0; k < 3; ++k)
             around.rounding[k] = last_place<Scalar>(std::abs(high_[k]) + k_reach_units * unit_) / unit_ / 2;
@@ -97,40 +102,36 @@ class PlaceSearch {
     // The last resort for corners whose half-spaces have a place that is too thin for any rounding tried: each point of
     // a lattice of one unit.
     bool find_in_ball(Hit<Scalar>& hit) {
-        return each_in_ball(k_reach_units, [&](int x, int y, int z) {
-            const Point by{x * unit_, y * unit_, z * unit_};
-            if (dot_product(by, unit_normal_) < off_length_ - unit_) return false;  // P was rounded
-            Point point{};
-            double square = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto near = static_cast<double>(static_cast<Scalar>(high_[k]));
-                point[k] = static_cast<double>(static_cast<Scalar>(near + by[k]));
-                const double off = ((point[k] - high_[k]) - low_[k]) / unit_;
-                square += off * off;
-            }
-            return square <= reach_ * reach_ && is_finite_and_far(point) && ways_.clear(point, true) &&
-                   take(point, true, hit) == Found::clear;
-        });
+        // P was rounded, so that places a unit nearer to the plane may be far enough.
+        return each_on_lattice<Scalar, k_most_steps>(
+            high_, low_, unit_, unit_normal_, off_length_ - unit_, reach_, [&](const Point& point) {
+                return !ways_.hides(point) && is_finite_and_far(point) && ways_.clear(point, true) &&
+                       take(point, true, hit) == Found::clear;
+            });
     }
+    static constexpr int k_most_steps = static_cast<int>(k_reach_units);
 
     // Tries the nearest point of the half-spaces; if a triangle is in the way, goes on with each way out, the nearest
     // first.
     bool find_clear(const Around& around, HalfSpaces& chosen, Hit<Scalar>& hit) {
         Point x{};
-        if (tries_ >= most_tries_ || !chosen.nearest(reach_, x)) return false;
+        return tries_ < most_tries_ && chosen.nearest(reach_, x) && find_clear_from(around, chosen, x, hit);
+    }
+    // `x`: their nearest point.
+    bool find_clear_from(const Around& around, HalfSpaces& chosen, const Point& x, Hit<Scalar>& hit) {
         Point by{};
         for (std::size_t k = 0; k < 3; ++k) by[k] = unit_ * x[k];
         if (!try_roundings(by, hit)) return found_;
         if (chosen.full()) return false;
         WaysOut ways(blocker_, blocked_, path_.from, around);
         std::array<double, 4> cost{};
+        std::array<Point, 4> there{};
         for (std::size_t i = 0; i < ways.count; ++i) {
             HalfSpace& out = ways.all[i];
             // A point beyond it and yet stopped: by what the plane's own rounding is.
             out.least = std::max(out.least, dot_product(out.normal, x) + around.slack(out.normal) / 2 + 0x1p-4);
-            Point there{};
             chosen.push(out);
-            cost[i] = chosen.nearest(reach_, there) ? dot_product(there, there) : HUGE_VAL;
+            cost[i] = chosen.nearest(reach_, there[i]) ? dot_product(there[i], there[i]) : HUGE_VAL;
             chosen.pop();
         }
         for (std::size_t n = 0; n < ways.count; ++n) {
@@ -139,7 +140,7 @@ class PlaceSearch {
             if (cost[least] == HUGE_VAL) return false;
             cost[least] = HUGE_VAL;
             chosen.push(ways.all[least]);
-            if (find_clear(around, chosen, hit)) return true;
+            if (tries_ < most_tries_ && find_clear_from(around, chosen, there[least], hit)) return true;
             chosen.pop();
         }
         return false;
@@ -272,6 +273,8 @@ template <class Scalar, class Ways>
 ///                                          the true one in each coordinate; if so, the corners of the first, and how
 ///                                          it is hit
 ///   bool clear(point, near)            whether none stops the way to a point, near as above or any
+///   bool hides(point)                  whether one that stops the way to a near point is known already
+///   Nearby                             is made from `ways`, and lives while many near points are asked about
 /// `from` itself needs no proof. `values`: as certify() left them. Returns how many points were not clear.
 template <class Scalar, class Ways>
 int place(const Path& path, const Measured& measured, const Decision& decision, double grain, const Values& values,

@@ -156,6 +156,10 @@ enum class Until { filter, values, place, all };
 
 /// Nothing is in any way.
 struct FreeWays {
+    struct Nearby {
+        explicit Nearby(const FreeWays&) {}
+    };
+    [[nodiscard]] bool hides(const Point&) const { return false; }
     [[nodiscard]] bool clear(const Point&, bool) const { return true; }
     [[nodiscard]] bool stops(const Point&, Corners&, Decision&) const { return false; }
 };

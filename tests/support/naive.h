@@ -93,7 +93,8 @@ class NaiveMesh {
                 detail::measure_path<Scalar>(corners_[i], path, measured);
                 const detail::Measures m = detail::fine_measures(narrow(), measured, path, decision, unused);
                 if (!options.accept({faces_[i], i, decision.side, decision.feature, decision.feature_index,
-                                     decision.at_start, m.fraction, barycentric}))
+                                     decision.at_start, m.fraction,
+                                     {m.barycentric[0], m.barycentric[1], m.barycentric[2]}}))
                     continue;
             }
             found.push_back({i, decision});
@@ -114,6 +115,10 @@ class NaiveMesh {
         std::size_t at;
         const QueryOptions& options;
 
+        struct Nearby {
+            explicit Nearby(const OtherWays&) {}
+        };
+        [[nodiscard]] bool hides(const detail::Point&) const { return false; }
         [[nodiscard]] bool clear(const detail::Point& point, bool) const { return !first(point); }
         bool stops(const detail::Point& point, detail::Corners& corners, detail::Decision& decision) const {
             const auto stop = first(point);
