@@ -34,7 +34,7 @@
 // is a multiple of that power
 // too, the partial products fit 53 bits, and each sum is exact.) meeting.h says where the numbers here are. So machines
 // that have fused operations use
-// them (refine_avx2.cpp) and answer the same.
+// them (narrow_fused.cpp) and answer the same.
 #pragma once
 
 #include <kernel/pair.h>

@@ -29,8 +29,12 @@ struct NarrowOf {
     static void filter_row(Row<Scalar> row, const double* from, const double* to, Sides sides, Filtered& filtered,
                            Measured& measured) {
         measure_row(row, from, to, measured);
-        filtered.verdict = Verdict::doubtful;
-        if (!measured.tame) return;
+        if (!measured.tame) {
+            filtered.verdict = Verdict::doubtful;
+            filtered.earliest = 0;
+            filtered.latest = 1;
+            return;
+        }
         filter_volumes(volumes_of<Four>(measured), errors_of<Four>(measured), sides, filtered);
         if (filtered.verdict != Verdict::doubtful) [[likely]]
             return;
