@@ -1,8 +1,6 @@
 // The kernels on AVX-512: nodes of queries in flight sixteen numbers at once (measured: 5 to 10 % less time on Sapphire
-// Rapids). A single query, which
-// waits for results and not for units, is no faster so; nor are clusters, which have no more than eight triangles.
-// Compiled with flags of its own
-// (lib/CMakeLists.txt), see set_probe.h.
+// Rapids). A single query, which waits for results and not for units, is no faster so; nor are clusters, which have no
+// more than eight triangles. Compiled with flags of its own (lib/CMakeLists.txt), see set_probe.h.
 #include <kernel/avx2.h>
 #include <kernel/table.h>
 

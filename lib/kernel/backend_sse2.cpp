@@ -24,7 +24,7 @@ struct Sse2 {
     static Mask both(Mask x, Mask y) { return _mm_and_ps(x, y); }
     static Mask either(Mask x, Mask y) { return _mm_or_ps(x, y); }
     static unsigned bits(Mask x) { return static_cast<unsigned>(_mm_movemask_ps(x)); }
-    // Of a key that is NaN, as places without a child may have, the second operand is taken: infinity where it counts.
+    // A key may be NaN in places without a child: then the second operand is taken, infinity where it counts.
     static Float none_where(Mask mask, Float keys) { return _mm_max_ps(keys, _mm_and_ps(mask, all(__builtin_inff()))); }
     static Float none_but(Mask mask, Float keys) {
         return _mm_max_ps(keys, _mm_andnot_ps(mask, all(__builtin_inff())));

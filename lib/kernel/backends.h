@@ -11,9 +11,8 @@ namespace pierce::detail {
 /// Those that this machine runs, the fastest first. Never empty.
 [[nodiscard]] const std::vector<const Backend*>& backends();
 
-/// The one of that name; for an empty name what the environment variable PIERCE_BACKEND says, and without that the
-/// fastest. Throws
-/// std::invalid_argument, naming those there are, when this machine has none of the name.
+/// The backend of that name; for an empty name the one that the environment variable PIERCE_BACKEND names, and without
+/// that the fastest. Throws std::invalid_argument, naming those there are, when this machine has none of that name.
 [[nodiscard]] const Backend& choose_backend(std::string_view name);
 
 }  // namespace pierce::detail

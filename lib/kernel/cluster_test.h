@@ -4,21 +4,18 @@
 // As Moller and Trumbore 1997, without division. Relative to corner a: edges p and q, start s = origin - a, direction
 // d, n = p x q, r = s x d:
 //   U = r . q,  V = -r . p,  W = -d . n - U - V    of one sign (or 0) where the line meets the triangle
-//   T = n . s,  E = T + limit (n . d)              the sides of the plane that the start and the point at `limit` are on
+//   T = n . s,  E = T + limit (n . d)              which sides of the plane the start and the point at `limit` are on
 //
 // The bounds. Let u = 2^-24; S, D, H the largest |components| of s, d, and of p and q. Each of these is rounded once
-// (for double from an exact or
-// nearly exact difference): within u of itself. Products of two are within 3u of S D, a component of r within 2 * 3u S
-// D + u 2 S D = 8u S D, and at most
-// 2 S D; a term r_k q_k within 12u S D H, three and two sums: 36u + (4 + 6)u < 48u S D H for U and V. In the same way
-// 48u D H^2 for d . n, 48u S H^2 for T.
+// (for double from an exact or nearly exact difference): within u of itself. Products of two are within 3u of S D, a
+// component of r within 2 * 3u S D + u 2 S D = 8u S D, and at most 2 S D; a term r_k q_k within 12u S D H, three and
+// two sums: 36u + (4 + 6)u < 48u S D H for U and V. In the same way 48u D H^2 for d . n, 48u S H^2 for T.
 //   W: 48u D H^2 + 96u S D H, and two sums of at most 6 D H^2 + 6 S D H and 6 D H^2 + 12 S D H: 60u D H^2 + 114u S D H.
 //   E: 54u S H^2 + 60u D H^2.
 // The line may lie beside that of the segment by g in each component (the way to a rounded point; the rounded origin of
-// a clipped segment). A way that
-// hits the triangle at X has a point of the segment within g of X, and a line of direction d through X, so r changes by
-// g x d, U and V by at most
-// 6 g D H, W by 12 g D H; X is in the plane, so n . (the segment's point) is within 6 g H^2 of 0.
+// a clipped segment). A way that hits the triangle at X has a point of the segment within g of X, and a line of
+// direction d through X, so r changes by g x d, U and V by at most 6 g D H, W by 12 g D H; X is in the plane, so
+// n . (the segment's point) is within 6 g H^2 of 0.
 //   Bound for U, V, W: D H (64u H + 128u S + 12 g) =: e.    Bound for T and E: H^2 (64u S + 64u D + 6 g) =: f.
 // (What is left of 64 and 128 is for terms of second order and the roundings of the bounds.) So the triangle is
 // certainly missed where
@@ -26,9 +23,8 @@
 //   T and E are both above f or both below -f: the segment up to `limit` stays on one side
 //   T < -f and only fronts count, T > f and only backs.
 // Underflow: a product loses at most 2^-150, times at most two others: `floor`, 2^-120 (1 + R)^2 with R >= S, D, H, is
-// added. Overflow:
-// for float the scene is between 2^-30 and 2^31 wide or `floor` is infinite; for double all are scene units, below 32.
-// NaN and infinite bounds: each comparison is false, and nothing is refused.
+// added. Overflow: for float the scene is between 2^-30 and 2^31 wide or `floor` is infinite; for double all are scene
+// units, below 32. NaN and infinite bounds: each comparison is false, and nothing is refused.
 #pragma once
 
 #include <cluster/record.h>

@@ -2,22 +2,21 @@
 // machine.
 //
 // As in Lange and Rump 2020, "Faithfully rounded floating-point computations" (CPair): the high parts are those of
-// plain arithmetic, the low
-// part is what they lost, itself computed in plain arithmetic, and the two are not made to fit again after each
-// operation. So a sum takes 8
-// operations, not 20 as in Joldes, Muller and Popescu 2017 (algorithm 6), and what is lost is bounded by the magnitudes
-// of the operands, not
-// by the result's: which is what the bounds of this library are made of. (Measured for the values of a hit: README.md,
-// "What exactness costs".)
+// plain arithmetic, the low part is what they lost, itself computed in plain arithmetic, and the two are not made to
+// fit again after each operation. So a sum takes 8 operations, not 20 as in Joldes, Muller and Popescu 2017
+// (algorithm 6), and what is lost is bounded by the magnitudes of the operands, not by the result's: which is what the
+// bounds of this library are made of. (Measured for the values of a hit: README.md, "What exactness costs".)
 //
 // The errors, in round to nearest (environment.h), with v = 2^-53. Let |x| be at most A, its low part at most j v A,
 // and y, B, k alike.
-//   sum        high + e = x.high + y.high exactly (TwoSum, Knuth), |e| <= v (A + B); low = e + (x.low + y.low) with two roundings:
-//              v max(j, k) v (A + B) + v (1 + max(j, k)) v (A + B) = (2 max(j, k) + 1) v^2 (A + B); its low part:
-//              (max(j, k) + 1) v (A + B)
-//   product    high + e = x.high y.high exactly (Dekker 1971), |e| <= v AB; low = e + (x.high y.low + x.low y.high): two products and a sum,
-//              2 (j + k) v^2; the last sum, (1 + j + k) v^2; x.low y.low left out, j k v^2: in all
-//              (1 + 3 (j + k) + j k) v^2 AB; its low part: (1 + j + k) v AB
+//   sum        high + e = x.high + y.high exactly (TwoSum, Knuth), |e| <= v (A + B);
+//              low = e + (x.low + y.low) with two roundings:
+//              v max(j, k) v (A + B) + v (1 + max(j, k)) v (A + B) = (2 max(j, k) + 1) v^2 (A + B);
+//              its low part: (max(j, k) + 1) v (A + B)
+//   product    high + e = x.high y.high exactly (Dekker 1971), |e| <= v AB;
+//              low = e + (x.high y.low + x.low y.high): two products and a sum, 2 (j + k) v^2;
+//              the last sum, (1 + j + k) v^2; x.low y.low left out, j k v^2: in all (1 + 3 (j + k) + j k) v^2 AB;
+//              its low part: (1 + j + k) v AB
 //   difference of two doubles: exact; j = 1.
 // (Each times 1 + 2^-48 for what is of higher order.) In the deepest formulas here, meeting.h's volumes, the j of
 // operands are
@@ -25,16 +24,14 @@
 //   products 8 v^2 and 20 v^2, sums 7, 13, 15, 17 and 19 v^2: each operation is within 32 v^2 = 2^-100 of its
 //   magnitude, with room.
 // Underflow: each of Dekker's five products and of the two others loses at most 2^-1074 more: 2^-1071 in all; sums lose
-// nothing.
-// Overflow: splitting multiplies by 2^27 + 1: all is finite for operands below 2^990 whose product is below 2^1020.
+// nothing. Overflow: splitting multiplies by 2^27 + 1: all is finite for operands below 2^990 whose product is below
+// 2^1020.
 //
 // What a product lost can be had by a fused operation as well: both are exact, and so the same bits, where the
-// product's last digit is not below
-// 2^-1074: where both factors are whole multiples of powers of two whose product is not. (Dekker: each half of a factor
-// is a multiple of that power
-// too, the partial products fit 53 bits, and each sum is exact.) meeting.h says where the numbers here are. So machines
-// that have fused operations use
-// them (narrow_fused.cpp) and answer the same.
+// product's last digit is not below 2^-1074: that is, where the factors are whole multiples of powers of two whose
+// product is not. (Dekker: each half of a factor is a multiple of that power too, the partial products fit 53 bits, and
+// each sum is exact.) meeting.h says where the numbers here are. So machines that have fused operations use them
+// (narrow_fused.cpp) and answer the same.
 #pragma once
 
 #include <kernel/pair.h>
@@ -107,8 +104,7 @@ template <class Lane, class Product>
 }
 
 /// What a formula that is written once needs to know of its numbers: doubles or double-doubles, single or in pairs.
-/// `unit`: each operation is within
-/// this much of the magnitudes of what goes in; `difference`, of two doubles, too.
+/// `unit`: each operation is within this much of the magnitudes of what goes in; `difference`, of two doubles, too.
 template <class Number>
 struct Arithmetic {
     using Lane = Number;                     ///< what it is made of: double or Pair
@@ -136,14 +132,11 @@ struct Arithmetic<BasicDoubleDouble<Lane_, Product>> {
     /// The same number with a low part within v of the high one.
     [[gnu::always_inline]] static Number tidy(const Number& x) { return two_sum<Product>(x.high, x.low); }
 
-    /// x / y, x and y being tidy and `inverse` 1 / y.high rounded: within 2^-100 of itself, if nothing underflows. q =
-    /// x.high * inverse is within
-    /// 4v of x / y, and what is missing is (x - q y) / y, |x - q y| <= 4v |x|: x.high - product.high is exact (the two
-    /// are within a few units of each
-    /// other), the sums lose 5, 2 and 7 v^2 |x|, q y.low 1 v^2 |x|, and the inverse of y.high in place of that of y 3v
-    /// of 5v |q|, the last
-    /// product 5 v^2: 35 v^2 in all, with the tidying 36 (not quite 2^-100, but less than two of these units, which is
-    /// what is counted).
+    /// x / y, x and y being tidy and `inverse` 1 / y.high rounded: within 2^-100 of itself, if nothing underflows.
+    /// q = x.high * inverse is within 4v of x / y, and what is missing is (x - q y) / y, |x - q y| <= 4v |x|:
+    /// x.high - product.high is exact (the two are within a few units of each other), the sums lose 5, 2 and 7 v^2 |x|,
+    /// q y.low 1 v^2 |x|, and the inverse of y.high in place of that of y 3v of 5v |q|, the last product 5 v^2: 35 v^2
+    /// in all, with the tidying 36 (not quite 2^-100, but less than two of these units, which is what is counted).
     [[gnu::always_inline]] static Number quotient(const Number& x, const Number& y, Lane inverse) {
         const Lane q = x.high * inverse;
         const auto product = two_product<Product>(q, y.high);

@@ -116,8 +116,8 @@ template <class Four = TwoPairs>
     if (v == k_unknown || end == k_unknown) return Verdict::doubtful;
     if (!(passes_front(-v, -end) && sides != Sides::back) && !(passes_back(-v, -end, sides) && sides != Sides::front))
         return Verdict::miss;
-    // The weight of a has no bar of 0 as a difference. As a volume of its own: (b - c) . ((b - from) x d), with bounds
-    // as the others'.
+    // As a difference the weight of a has no bar that is 0. So it is taken as a volume of its own,
+    // (b - c) . ((b - from) x d), with bounds like the others'.
     const Triple<Pair>& ba = x.lines.ba;
     const Triple<Pair>& ct = x.lines.ct;
     const Triple<Pair>& af = x.lines.af;

@@ -1,6 +1,6 @@
 // The filter's answer in double-double, for what it leaves in doubt: ends within some units in the last place of a
-// plane, as every particle that rests on a tilted floor has them, and lines within as little of an edge. What is exactly
-// on a plane or an edge stays doubtful.
+// plane, as every particle that rests on a tilted floor has them, and lines within as little of an edge. What is
+// exactly on a plane or an edge stays doubtful.
 //
 // Volumes and bounds are those of meeting.h with the unit of double-doubles. Each volume is rounded to double once,
 // which keeps its sign and is off by 2^-53 of itself: so it is compared with bounds that are that much larger.

@@ -1,5 +1,5 @@
 // The places that the point of a hit may come to: the true point moved a little and rounded, and whether a point is as
-// far off the face's plane as it has to be (query/place.h says which and why).
+// far off the face's plane as it has to be (query/place.h says which and why); and how large the grain is.
 #pragma once
 
 #include <decision.h>
@@ -58,9 +58,9 @@ inline constexpr double k_far = 1 - 0x1p-40;
 inline constexpr double k_underflow = 0x1p-1000;
 
 /// Whether a point is on the start's side, and a grain off the plane or as far off as the start. The first by
-/// n . (point - P), P being in the plane, the second by n . (point - from): each term is off by what n and P may be off,
-/// and 2^-51 of itself for its roundings and the sum's. (Where each term of the second has a factor that is exactly 0,
-/// so is it.) Errors that are infinite prove nothing. `point` must be finite.
+/// n . (point - P), P being in the plane, the second by n . (point - from): each term is off by what n and P may be
+/// off, and 2^-51 of itself for its roundings and the sum's. (Where each term of the second has a factor that is
+/// exactly 0, so is it.) Errors that are infinite prove nothing. `point` must be finite.
 template <class Four>
 class Farness {
   public:
@@ -114,7 +114,7 @@ class Farness {
     double wanted_;
 };
 
-/// The way from the true point to where the first place is looked for: off the plane by a grain, or as far as the start.
+/// The way from the true point to where the first place is sought: off the plane by a grain, or as far as the start.
 template <class Four>
 [[nodiscard]] [[gnu::always_inline]] inline Four off_plane(const Values& values, const PlaceOf& of) {
     const double inverse = 1 / values.length;

@@ -7,9 +7,8 @@ namespace pierce::detail {
 
 /// As many as hide the time that memory takes; 8 and 32 are no faster.
 constexpr unsigned k_flights = 16;
-/// Groups of children that a query in flight can keep; a tree has no more nodes on a path, or its batches go one by
-/// one. (Trees of ten million faces
-/// have 10.)
+/// Groups of children that a query in flight can keep. In a tree that has more nodes on a path, the queries of a batch
+/// go one by one. (Trees of ten million faces have 10.)
 constexpr unsigned k_flight_depth = 16;
 
 /// Where queries in flight come from, and where what they find goes. `slot` is a number below k_flights.

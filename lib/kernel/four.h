@@ -1,5 +1,5 @@
-// Four doubles in step, for the coordinates of a hit: as two pairs, on any machine. fused.h has the same in one register
-// of AVX2. Both do the same operations in the same order, so all bits are the same.
+// Four doubles in step, for the coordinates of a hit: as two pairs, on any machine. fused.h has the same in one
+// register of AVX2. Both do the same operations in the same order, so all bits are the same.
 //
 // A mask has all bits of a lane set or none. Comparisons with NaN are false. The fourth lane is nobody's where three
 // coordinates go in.

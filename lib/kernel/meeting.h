@@ -1,30 +1,27 @@
 // Where the line of a path meets a triangle's plane, in double or in twice that precision: one formula and one
-// derivation for both, and one
-// set of volumes for the filter's decision and for all values of a hit.
+// derivation for both, and one set of volumes for the filter's decision and for all values of a hit.
 //
 // Moller and Trumbore's determinants (1997), relative to corner a. Edges p = b - a and q = c - a, start o = a - from,
-// direction d = to - from,
-// n = p x q, r = o x d. From o = t d - weight_b p - weight_c q by Cramer's rule:
+// direction d = to - from, n = p x q, r = o x d. From o = t d - weight_b p - weight_c q by Cramer's rule:
 //   s = d . n,  v = o . n,  w_b = r . q,  w_c = -r . p,  w_a = s - w_b - w_c;  fraction v / s, weights w / s
 //   the start's side is that of -v, the end's that of s - v.
 // They come in pairs: n and r are (p | o) x (q | d), s and w_b are (d | q) . (n | r), v and -w_c are (o | p) . (n | r).
 //
 // The bounds are in parts of the "bars": the same sums of products, of magnitudes and with all signs made +: N, R for n
-// and r, S, V, B, C for s, v,
-// w_b, w_c. With u the number's unit (double_double.h: differences, products and sums are within u of their
-// magnitudes), in first order:
-//   differences u, products of two 3u, n and r 4u of N and R, products with another difference 6u, sums of three 8u of
-//   S, V, B, C.
+// and r, S, V, B, C for s, v, w_b, w_c. With u the number's unit (double_double.h: differences, products and sums are
+// within u of their magnitudes), in first order:
+//   differences u, products of two 3u, n and r 4u of N and R, products with another difference 6u,
+//   sums of three 8u of S, V, B, C.
 // 9u in place of 8u is enough for terms of second order, the roundings of the bars themselves, and the low parts of
 // double-doubles:
-//   |err| <= 9u bar for s, v, w_b, w_c     |err n_k| <= 5u N_k     v - s: 10u (S + V)     w_a: 9u and two sums: 12u (S + B + C).
+//   |err| <= 9u bar for s, v, w_b, w_c     |err n_k| <= 5u N_k
+//   v - s: 10u (S + V)                     w_a: 9u and two sums: 12u (S + B + C).
 // And a bar of 0 says that each product is exactly 0, and so is the value.
 //
 // `tame`: that holds. Each coordinate is 0 or in [2^-200, 2^200], so each is a multiple of 2^-252, and so are
-// differences and their low parts (rounding
-// keeps a number on a lattice coarser than itself); products of two are multiples of 2^-504 below 2^403, products of
-// three of 2^-756 below 2^606: nothing
-// underflows or overflows, and what a product of high parts lost is a double. That includes all floats. False for NaN.
+// differences and their low parts (rounding keeps a number on a lattice coarser than itself); products of two are
+// multiples of 2^-504 below 2^403, products of three of 2^-756 below 2^606: nothing underflows or overflows, and what a
+// product of high parts lost is a double. That includes all floats. False for NaN.
 #pragma once
 
 #include <kernel/double_double.h>

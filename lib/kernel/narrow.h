@@ -24,8 +24,8 @@ struct NarrowKernels {
     /// `measured` in any case.
     void (*filter)(Row<Scalar> row, const double* from, const double* to, Sides sides, Filtered& filtered,
                    Measured& measured);
-    /// Values of a triangle that is hit, as good as double (for floats) or double-double gives them, and the first place
-    /// to be tried for the point.
+    /// Values of a triangle that is hit, as good as double (for floats) or double-double gives them, and the first
+    /// place to be tried for the point.
     void (*evaluate)(const Measured& measured, Sides side, double grain, Values& values, Rounded<Scalar>& rounded);
     /// The same always in double-double.
     void (*evaluate_finely)(const Measured& measured, Sides side, double grain, Values& values,

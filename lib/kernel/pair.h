@@ -1,6 +1,5 @@
 // Two doubles in one register of any machine: what is the same for two numbers is computed once. Made of the vector
-// types of GCC and Clang, so
-// that it says nothing of an instruction set: the flags of the file that includes it do.
+// types of GCC and Clang, so that it says nothing of an instruction set: the flags of the file that includes it do.
 #pragma once
 
 namespace pierce::detail {

@@ -6,8 +6,7 @@
 namespace pierce::detail {
 
 /// Parameters t of a probe run from 0 to 1 over the part of the segment that may touch the scene: nearly always all of
-/// it. Of each four numbers
-/// the last is of no use.
+/// it. The last of each four numbers is of no use.
 template <class Scalar>
 struct Probe {
     // In scene units, relative to Frame::low.
@@ -47,8 +46,7 @@ struct Probe {
 };
 
 /// What a traversal does with a cluster whose `lanes` may be hit. Returns the parameter beyond which nothing is of use
-/// any more, rounded up; negative:
-/// the traversal ends.
+/// any more, rounded up; negative: the traversal ends.
 using Visit = float (*)(void* self, std::uint32_t cluster, unsigned lanes);
 
 }  // namespace pierce::detail

@@ -2,8 +2,8 @@
 // looked at.
 //
 // Queries in flight are kept in lists by their next step: a node, a cluster, or the next of the stack. All of a list
-// take their step in turn,
-// without branches on what they find; what the step after that reads is asked of memory at once.
+// take their step in turn, without branches on what they find; what the step after that reads is asked of memory at
+// once.
 #pragma once
 
 #include <kernel/flight.h>

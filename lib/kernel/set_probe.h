@@ -1,22 +1,19 @@
 // Makes a segment ready for the wide kernels; a segment much longer than the scene is clipped to its box first.
 //
 // Included by backend_*.cpp, as all of the wide kernels' headers: nothing here may be shared with other files, so no
-// standard header with
-// inline functions, and every function depends on a type of an unnamed namespace.
+// standard header with inline functions, and every function depends on a type of an unnamed namespace.
 //
 // In scene units, relative to Frame::low, the scene is in [0, 2]. x = from * unit - low is within 2^-52 |x| of the
-// exact one, as unit is a power of
-// two (underflow: 2^-1074, less than the noise); d = (to - from) * unit is within 2^-52 |d|. So a point x + t d is
-// within
-// 2^-52 (|x| + 2 |x + d|) of the exact one, which is part of `noise`.
+// exact one, as unit is a power of two (underflow: 2^-1074, less than the noise); d = (to - from) * unit is within
+// 2^-52 |d|. So a point x + t d is within 2^-52 (|x| + 2 |x + d|) of the exact one, which is part of `noise`.
 //
-// Where an end is further than k_far from the lattice's corner the segment is clipped. From the nearer end on, y + r e with
-// r in [0, 1] has left [-1/8, 17/8] before r_in and after r_out; (bound - y) and the quotient round three times, so r is
-// within 2^-50 of itself, which moves a point by at most 2^-50 (|y| + |e| r) < 2^-49 (|y| + 4): nothing that is within the
-// eighth of the scene less the noise is lost if that is below 1/16, and what is lost in the place of the points is added to
-// the noise. From a near end, |y| <= k_far, the length does not matter (k_overflows). Where both ends are far, the noise grows
-// with the distance of the nearer one: from 2^30 scenes on boxes are told apart less and less well, and from 2^46 on
-// everything is visited (k_beyond_all).
+// Where an end is further than k_far from the lattice's corner the segment is clipped. From the nearer end on, y + r e
+// with r in [0, 1] has left [-1/8, 17/8] before r_in and after r_out; (bound - y) and the quotient round three times,
+// so r is within 2^-50 of itself, which moves a point by at most 2^-50 (|y| + |e| r) < 2^-49 (|y| + 4): nothing that is
+// within the eighth of the scene less the noise is lost if that is below 1/16, and what is lost in the place of the
+// points is added to the noise. From a near end, |y| <= k_far, the length does not matter (k_overflows). Where both
+// ends are far, the noise grows with the distance of the nearer one: from 2^30 scenes on boxes are told apart less and
+// less well, and from 2^46 on everything is visited (k_beyond_all).
 #pragma once
 
 #include <cstdint>
@@ -31,11 +28,11 @@ constexpr double k_far = 8;
 /// overflow. Clipping does without it.
 constexpr double k_least_unit = 0x1p-1019;
 
-/// Ends that are both further away, in scene units, are near to everything.
+/// A segment whose ends are both further away than this, in scene units, comes near to everything.
 constexpr double k_beyond_all = 0x1p100;
-/// From here on products with the unit, of coordinates below 2^1024, overflow: the way is taken 2^-1100 times as long, and its
-/// parameters 2^1100 times as large. Its largest component is then 2^-102 or more, so it has passed the scene at a parameter
-/// below 2^204. What underflows of the others, 2^-603, leads no further than 2^-399 up to there.
+/// From here on products with the unit, of coordinates below 2^1024, overflow: the way is taken 2^-1100 times as long,
+/// and its parameters 2^1100 times as large. Its largest component is then 2^-102 or more, so it has passed the scene
+/// at a parameter below 2^204. What underflows of the others, 2^-603, leads no further than 2^-399 up to there.
 constexpr double k_overflows = 0x1p1000;
 
 template <class Wide>
@@ -142,7 +139,7 @@ template <class Wide, class Scalar>
     const auto size_of = [&](const Four& y) __attribute__((always_inline)) {
         return reinterpret_cast<Four>(reinterpret_cast<FourWords>(y) & ~sign);
     };
-    // Number by number: who has just written two of them as single numbers would wait for a load of both.
+    // Number by number: a load of two that were just written as single numbers would wait for both.
     const auto load = [](const double* y) __attribute__((always_inline)) {
         const auto* each = static_cast<const volatile double*>(y);
         const double a = each[0];
@@ -207,8 +204,8 @@ template <class Wide, class Scalar>
     probe.scale = static_cast<Scalar>(scale);
     // Of the cluster test; derived there.
     constexpr double u = 0x1p-24;
-    const double unit =
-        scale / frame.unit;  // of the cluster test's lengths in scene units: 1, or that of the caller's coordinates
+    // Of the cluster test's lengths in scene units: 1, or that of the caller's coordinates.
+    const double unit = scale / frame.unit;
     const double reach = most(size_of(length));
     double g = noise * unit * (1 + 0x1p-20);
     if (clipped) [[unlikely]]  // the origin was moved and rounded

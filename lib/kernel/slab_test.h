@@ -1,19 +1,15 @@
 // Which children of a node does a segment touch, and from which parameter on? Sixteen at a time.
 //
 // On the scene's lattice a slab's side is at t = (bound * step - x) / d = near + bound * pace, and the children that
-// the segment touches within the
-// probe's noise have entry <= exit when each near side is taken earlier by e and each far side later by e.
-// Rounding, for v = 2^-24, x below k_far = 8 and bounds below 2^16 steps, 2 scene units: pace is within v of itself,
-// and so is the product with a bound:
-//   2v * 2 / |d|; near is within v * 9 / |d|; the sum within v * 11 / |d|: 24v / |d| < 2^-19 / |d|, which is part of e
-//   (set_probe.h), beside noise / |d|.
-// A fused operation rounds less often.
+// the segment touches within the probe's noise have entry <= exit when each near side is taken earlier by e and each
+// far side later by e. Rounding, for v = 2^-24, x below k_far = 8 and bounds below 2^16 steps, 2 scene units: pace is
+// within v of itself, and so is the product with a bound: 2v * 2 / |d|; near is within v * 9 / |d|; the sum within
+// v * 11 / |d|: 24v / |d| < 2^-19 / |d|, which is part of e (set_probe.h), beside noise / |d|. A fused operation rounds
+// less often.
 //
 // In a coarse node's own frame t = (origin - x) / d + bound * step / d. The difference of doubles rounds once more, to
-// float, in proportion to itself;
-// c being its size and 255 step the largest bound: 4v (c + 255 step) / |d| in all, 2^-20 (c + 255 step) / |d| are
-// allowed.
-// NaN: entry <= exit is false; but no probe has any.
+// float, in proportion to itself; c being its size and 255 step the largest bound: 4v (c + 255 step) / |d| in all,
+// 2^-20 (c + 255 step) / |d| are allowed. NaN: entry <= exit is false; but no probe has any.
 #pragma once
 
 #include <kernel/probe.h>
@@ -85,11 +81,9 @@ template <class Wide, class Scalar>
 constexpr float k_far_node = 0x1p14F;
 
 /// A coarse node so far away that floats would not tell its children apart: all parameters are taken relative to
-/// `base`, about where
-/// the segment comes to the node, computed in double. With center = (origin - x) / d, within 2^-51 of itself, a slab's
-/// side is at
-/// (center - base) + bound * pace; 2^-22 (|center - base| + 255 |pace|) is more than the roundings of that to float and
-/// of the sum.
+/// `base`, about where the segment comes to the node, computed in double. With center = (origin - x) / d, within 2^-51
+/// of itself, a slab's side is at (center - base) + bound * pace; 2^-22 (|center - base| + 255 |pace|) is more than the
+/// roundings of that to float and of the sum.
 template <class Wide, class Scalar>
 [[gnu::noinline]] Touched<Wide> slab_test_far(const CoarseNode& node, const Probe<Scalar>& probe, float limit) {
     double center[3];
@@ -157,8 +151,7 @@ template <class Wide>
 }
 
 // Keys: the bits of an entry, which are in the order of the entries as none is negative, with the child's place in the
-// lowest four. k_no_key is
-// that of a child that is not touched or was taken already.
+// lowest four. k_no_key is that of a child that is not touched or was taken already.
 constexpr std::uint32_t k_no_key = 0x7f800000U;
 
 template <class Wide>
@@ -169,7 +162,7 @@ template <class Wide>
     return keys;
 }
 
-/// Of each place of a register the least of all groups.
+/// For each lane of a register, the least key of all groups.
 template <class Wide>
 [[gnu::always_inline]] inline typename Wide::Float least_keys(const Sixteen<Wide>& keys) {
     typename Wide::Float least = keys.part[0];
@@ -182,7 +175,7 @@ template <class Wide>
     return Wide::least_of(least_keys(keys));
 }
 
-/// 1 if there is one that was not taken.
+/// 1 if there is a key that was not taken.
 template <class Wide>
 [[gnu::always_inline]] inline unsigned any_key(const Sixteen<Wide>& keys) {
     return Wide::bits(Wide::below(least_keys(keys), Wide::all(__builtin_inff()))) != 0 ? 1U : 0U;
@@ -195,7 +188,7 @@ template <class Wide>
         keys.part[g] = Wide::none_where(Wide::same(keys.part[g], Wide::all_bits(key)), keys.part[g]);
 }
 
-/// Of a parameter, for comparison with keys: none of an entry up to it is larger.
+/// A parameter made comparable with keys: no key of an entry up to it is larger.
 template <class Wide>
 [[gnu::always_inline]] inline std::uint32_t key_limit(float limit) {
     std::uint32_t bits;

@@ -1,10 +1,9 @@
 // One segment's way through the tree, nearest clusters first.
 //
 // The children of a node that are touched go on the stack as one group of keys; the nearest is taken, and the next when
-// the group comes up again. Most
-// nodes have one such child: then nothing is pushed. A group whose nearest is beyond the limit goes as a whole: the
-// others are further
-// (Ylitie, Karras and Laine 2017 keep groups of children on the stack as well, in octant order).
+// the group comes up again. Most nodes have one such child: then nothing is pushed. A group whose nearest is beyond the
+// limit goes as a whole: the others are further (Ylitie, Karras and Laine 2017 keep groups of children on the stack as
+// well, in octant order).
 #pragma once
 
 #include <kernel/cluster_test.h>
@@ -12,9 +11,8 @@
 
 namespace pierce::detail {
 
-/// Asks memory for what a child refers to. Without a branch on what it is, which would be mispredicted half of the
-/// time, so where
-/// compilers make one of it the move is written out.
+/// Asks memory for what a child refers to, node or cluster. Without a branch on which it is, as that would be
+/// mispredicted half of the time: where compilers make a branch of it, the conditional move is written out.
 template <class Wide, class Scalar>
 [[gnu::always_inline]] inline void ask_memory(const void* nodes, const Scalar* records, std::uint32_t child) {
     const char* at = static_cast<const char*>(nodes) + (std::size_t{child} << 8);

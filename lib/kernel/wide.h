@@ -1,7 +1,6 @@
 // Several numbers in step, for the formulas of include/pierce/kernels: one operation for all lanes, each rounded as a
-// scalar one. Made of the
-// vector types of GCC and Clang, so that it says nothing of an instruction set: the flags of the file that includes it
-// do.
+// scalar one. Made of the vector types of GCC and Clang, so that it says nothing of an instruction set: the flags of
+// the file that includes it do.
 #pragma once
 
 #include <array>
@@ -86,9 +85,8 @@ struct Wide {
 };
 
 /// Several stored forms side by side: what stands at one place in each of them becomes the lanes of one number.
-/// `Narrow` and `Broad` are a
-/// kernel's stored form, or a `Triple`, over Scalar and over Wide<Scalar, Lanes>: the same numbers in the same order, a
-/// column last.
+/// `Narrow` and `Broad` are a kernel's stored form, or a `Triple`, over Scalar and over Wide<Scalar, Lanes>: the same
+/// numbers in the same order, a column last.
 template <class Broad, class Narrow, class Scalar, std::size_t Lanes>
 [[nodiscard]] Broad side_by_side(const std::array<Narrow, Lanes>& forms) {
     using Number = Wide<Scalar, Lanes>;

@@ -36,8 +36,7 @@ template <class Scalar>
 }
 
 /// Calls `use(cluster, lanes)`, as in each_candidate, for a cluster of which `lanes` are left. Returns the parameter up
-/// to which
-/// hits are of use, `limit` before; negative: none is any more.
+/// to which hits are of use, `limit` before; negative: none is any more.
 template <class Scalar, class Use>
 [[nodiscard]] float use_cluster(const Scene<Scalar>& scene, const Probe<Scalar>& probe, ClusterRef cluster,
                                 unsigned lanes, float limit, QueryCounters& counters, Use&& use) {
@@ -49,8 +48,7 @@ template <class Scalar, class Use>
 }
 
 /// Does with the grid what `kernels.traverse` does with the tree. A limit is a float all the way: what the grid hands
-/// on
-/// is the last one that it got, or 1.
+/// on is the last one that it got, or 1.
 template <class Scalar>
 void traverse_grid(const Scene<Scalar>& scene, const ScalarKernels<Scalar>& kernels, Probe<Scalar>& probe,
                    float first_limit, Visit visit, void* self) {

@@ -55,7 +55,7 @@ class First {
     Shortlist list_;
 };
 
-/// The first but those of one triangle and those that `passed(triangle)` says are known already.
+/// Keeps the first hit, but for those of one triangle and those that `passed(triangle)` says are known already.
 template <class Scalar, class Passed>
 class FirstOther : public First<Scalar> {
   public:

@@ -1,4 +1,5 @@
-// The queries: one traversal each, with the collector that makes the difference.
+// The queries: one traversal each, with the collector that makes the difference; crossings and winding numbers are sums
+// over all candidates.
 #include <query/engine.h>
 
 #include <limits>
@@ -84,12 +85,9 @@ int crossings_of(const Scene<Scalar>& scene, const Path& path, QueryCounters& co
 }
 
 /// The way out of the box that is shortest along an axis, tilted by some of its length along the two others: along an
-/// axis it
-/// would follow the edges that models have there, which only exact arithmetic can tell from crossings. It ends clearly
-/// outside: at the next
-/// number below 0 it would end among denormal numbers, and take the widest arithmetic. An end beyond the box along one
-/// axis has winding number 0,
-/// wherever it is along the others.
+/// axis it would follow the edges that models have there, which only exact arithmetic can tell from crossings. It ends
+/// clearly outside: at the next number below 0 it would end among denormal numbers, and take the widest arithmetic. An
+/// end beyond the box along one axis has winding number 0, wherever it is along the others.
 [[nodiscard]] Path way_out(const Point& point, const Box& box) {
     Path way{point, point};
     double shortest = std::numeric_limits<double>::infinity();

@@ -1,7 +1,6 @@
 // The queries themselves, behind a call that the compiler does not inline: the caller has made the arithmetic standard
 // (environment.h), in which even the conversion of a float to double matters, and has seen that every coordinate is
-// finite and
-// `max_fraction` is not NaN.
+// finite and `max_fraction` is not NaN.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// The grain: how far off a face's plane a stopped point keeps, and how far from the true intersection it is looked for.
+// The grain: how far off a face's plane a stopped point keeps, and how far from the true intersection it is looked for
+// (first_place.h has both in units); and roundings to Scalar.
 #pragma once
 
 #include <algorithm>
@@ -41,8 +42,7 @@ template <class Scalar>
 }
 
 /// The number next to `x`, which is a Scalar and finite, in the direction of `sign`, which is not 0. Without a branch:
-/// which
-/// way it goes can't be predicted.
+/// which way it goes can't be predicted.
 template <class Scalar>
 [[nodiscard]] double next_to(double x, double sign) {
     using Bits = std::conditional_t<sizeof(Scalar) == 4, std::int32_t, std::int64_t>;

@@ -25,8 +25,8 @@ namespace pierce::detail {
 }
 
 /// For each position the first one with the same coordinates. A position that is not a number is the same as itself
-/// only. A table of at least twice as many places, probed one after another from where the hash says (Knuth, volume
-/// 3, 6.4).
+/// only. A table of at least twice as many places, probed one after another from where the hash says (Knuth, volume 3,
+/// 6.4).
 [[nodiscard]] inline std::vector<std::uint32_t> merge_equal(std::span<const Point> positions) {
     constexpr std::size_t k_block = 16;                  // so many places are asked for together
     constexpr std::uint64_t k_free = ~std::uint64_t{0};  // no position has this number

@@ -1,5 +1,5 @@
-// What is odd about a mesh: equal vertices merged, the triangles around each looked at, the border's vertices looked
-// up along the border's edges.
+// What is odd about a mesh: equal vertices merged, the triangles around each looked at, the border's vertices looked up
+// along the border's edges. And the report as text.
 #include <query/mesh_report.h>
 
 #include <sstream>

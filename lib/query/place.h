@@ -1,18 +1,18 @@
-// The place of a hit: its true position, and the verified point.
+// The place of a hit: its verified point, and the fraction of the segment up to there.
 //
 // The verified point keeps to the start's side of the face, a grain off its plane, or as far off as the start was if
 // that is less. On the plane itself, or nearer than what rounding does to any point of the mesh, a point would be
 // behind it by the next rounding, or could not leave. So the first point to be tried is the true one P, moved off by a
-// grain along the normal, its coordinates rounded outwards, so that no term of n . (point - P) lacks of the grain; then
-// the same rounded to nearest, which half of the time is too near to the plane (as the first one to be tried it cost a
-// tenth of an answer). Near edges and corners of other faces neither may be clear. Then the triangle that stops the way
-// says
-// where it may be: on the start's side of its plane or past one of its three edges, seen from the start. Each of these
-// is a half-space; the nearest point of those chosen so far is tried, and what stops the way to that adds another
-// choice. All choices are gone through in the order of their distances, but those that lead further than a grain and
-// eight units: first with room for any rounding, then with none but all eight ways to round. (Two planes at less than
-// 19.5 degrees leave no place in their corner: 4 / sin 19.5 = 12.) Where that second round tried something and failed,
-// each place on a lattice of one unit is tried; and only then points back along the way from the start.
+// grain along the normal, its coordinates rounded outwards, so that no term of n . (point - P) falls short of the
+// grain; then the same rounded to nearest, which half of the time is too near to the plane (as the first one to be
+// tried it cost a tenth of an answer). Near edges and corners of other faces neither may be clear. Then the triangle
+// that stops the way says where it may be: on the start's side of its plane or past one of its three edges, seen from
+// the start. Each of these is a half-space; the nearest point of those chosen so far is tried, and what stops the way
+// to that adds another choice. All choices are gone through in the order of their distances, but those that lead
+// further than a grain and eight units: first with room for any rounding, then with none but all eight ways to round.
+// (Two planes at less than 19.5 degrees leave no place in their corner: 4 / sin 19.5 = 12.) Where that second round
+// tried something and failed, each place on a lattice of one unit is tried; and only then points back along the way
+// from the start.
 //
 // Cost: a half-space takes 64 sweeps of at most 8, a few microseconds in the worst case; a try is a query among the
 // triangles of the shortlist. There are 2 * `k_most_tries` + 8 tries at most, and the lattice has 7,152 places, some
@@ -128,7 +128,7 @@ class PlaceSearch {
         std::array<Point, 4> there{};
         for (std::size_t i = 0; i < ways.count; ++i) {
             HalfSpace& out = ways.all[i];
-            // A point beyond it and yet stopped: by what the plane's own rounding is.
+            // A point beyond it may be stopped all the same: by the plane's own rounding.
             out.least = std::max(out.least, dot_product(out.normal, x) + around.slack(out.normal) / 2 + 0x1p-4);
             chosen.push(out);
             cost[i] = chosen.nearest(reach_, there[i]) ? dot_product(there[i], there[i]) : HUGE_VAL;
@@ -146,8 +146,8 @@ class PlaceSearch {
         return false;
     }
 
-    // Whether a triangle is in the way to all of them that are fit: `blocker_`, which stops the first. If not, `found_`
-    // says whether a way is clear.
+    // Whether triangles are in the way to all of the roundings that are fit: `blocker_` is the one that stops the
+    // first. If not, `found_` says whether a way is clear.
     bool try_roundings(const Point& by, Hit<Scalar>& hit) {
         found_ = false;
         bool stopped = false;
@@ -251,7 +251,7 @@ class PlaceSearch {
     int tries_ = 0;
 };
 
-/// A bound below the true fraction, of which `exact` is within k_tolerance, and one rounding; two steps where it is
+/// A bound below the true fraction, where `exact` is within k_tolerance and one rounding of it; two steps where it is
 /// denormal.
 template <class Scalar>
 [[nodiscard]] inline double fraction_below(double exact) {
@@ -272,9 +272,9 @@ template <class Scalar, class Ways>
 ///   bool stops(point, corners, decision)   whether a triangle stops the way to a point within `near_margin(grain)` of
 ///                                          the true one in each coordinate; if so, the corners of the first, and how
 ///                                          it is hit
-///   bool clear(point, near)            whether none stops the way to a point, near as above or any
-///   bool hides(point)                  whether one that stops the way to a near point is known already
-///   Nearby                             is made from `ways`, and lives while many near points are asked about
+///   bool clear(point, near)                whether none stops the way to a point, near as above or any
+///   bool hides(point)                      whether one that stops the way to a near point is known already
+///   Nearby                                 is made from `ways`, and lives while many near points are asked about
 /// `from` itself needs no proof. `values`: as certify() left them. Returns how many points were not clear.
 template <class Scalar, class Ways>
 int place(const Path& path, const Measured& measured, const Decision& decision, double grain, const Values& values,

@@ -1,6 +1,5 @@
-// A tree over points, for the question which of them lie near a segment: a node is entered only if the widened
-// segment itself meets its box, so a long edge through many points looks at those beside it and not at all in its
-// box.
+// A tree over points, for the question which of them lie near a segment: a node is entered only if the widened segment
+// itself meets its box, so a long edge through many points looks at those beside it and not at all in its box.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +23,9 @@ class PointTree {
         if (!vertices_.empty()) build(0, vertices_.size());
     }
 
-    /// Calls visit(vertex) for all vertices within `slack` times the largest coordinate of the segment from it in
-    /// each coordinate, and some more. `slack` is at least 8 units in the last place of 1; the arithmetic here takes
-    /// half of it. Returns the boxes looked at, those of points included.
+    /// Calls visit(vertex) for all vertices within `slack` times the largest coordinate of the segment from it in each
+    /// coordinate, and some more. `slack` is at least 8 units in the last place of 1; the arithmetic here takes half of
+    /// it. Returns the boxes looked at, those of points included.
     template <class Visit>
     std::size_t visit_near(const Point& from, const Point& to, double slack, Visit&& visit) const {
         if (nodes_.empty()) return 0;
@@ -66,8 +65,8 @@ class PointTree {
     typedef double Pair __attribute__((vector_size(16)));  // as wide as every processor has it
 
     // The places t of the segment within the slab of each coordinate, cut with one another. A bound t is off by what
-    // moves the point by 4 units in the last place of the largest coordinate at most: a subtraction of two, a
-    // quotient, a product.
+    // moves the point by 4 units in the last place of the largest coordinate at most: a subtraction of two, a quotient,
+    // a product.
     struct Line {
         Line(const Point& from, const Point& to, double relative) {
             double largest = 0;
@@ -78,7 +77,7 @@ class PointTree {
             slack = relative * (scale * largest);
             for (std::size_t k = 0; k < 3; ++k) {
                 start[k] = scale * from[k];
-                // So short that the slack is more by far: it stands for zero as well.
+                // A direction below k_least, zero included, is taken for k_least: the slack is more by far.
                 const double direction = scale * to[k] - start[k];
                 inverse[k] = 1 / (std::abs(direction) < k_least ? k_least : direction);
             }

@@ -1,4 +1,4 @@
-// Where the values of a decided hit are rounded: fraction, weights, normal. (The verified point: place.h.)
+// The rounded values of a decided hit, put into the caller's Hit. (The verified point and its fraction: place.h.)
 #pragma once
 
 #include <cstring>

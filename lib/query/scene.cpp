@@ -84,8 +84,8 @@ std::size_t Scene<Scalar>::bytes() const {
 
 template <class Scalar>
 Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options) {
-    // The caller's threads have floating-point environments of their own, and no use for what is thrown, when memory is
-    // at an end.
+    // The caller's threads have floating-point environments of their own, and no use for what is thrown when memory
+    // runs out.
     const auto in_standard_arithmetic = [&](std::size_t parts, Task task) {
         std::atomic_flag failed;
         std::exception_ptr failure;

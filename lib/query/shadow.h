@@ -96,7 +96,7 @@ class Shadow {
 
   private:
     static constexpr double k_error = 0x1p-49;  ///< 16 u
-    /// Between these nothing overflows; and what underflows, 2^-1075 in a product, is none of the error's matter.
+    /// Between these nothing overflows; and what underflows, 2^-1075 in a product, does not matter beside the error.
     static constexpr double k_least = 0x1p-900;
     static constexpr double k_largest = 0x1p900;
 

@@ -16,10 +16,10 @@ struct TJunctionCounters {
     std::size_t pairs = 0;  ///< vertices and edges that were measured
 };
 
-/// Whether vertex v lies beside the inner part of the edge, within rounding: a vertex that was put on an edge may lie
-/// from it as far as each coordinate is rounded, and a few roundings before may have gone. Among denormal numbers
-/// that is 0: what lies on an edge exactly is found there, and nothing else. `epsilon` is that of the scalar type the
-/// coordinates were given in.
+/// Whether vertex v lies beside the inner part of the edge, within rounding: a vertex that was put on an edge may be
+/// off it by the rounding of each coordinate, and by a few roundings before that. Among denormal numbers that is 0:
+/// what lies on an edge exactly is found there, and nothing else. `epsilon` is that of the scalar type the coordinates
+/// were given in.
 [[nodiscard]] bool lies_on(std::span<const Point> positions, std::uint32_t v, const MeshReport::Edge& edge,
                            double epsilon);
 

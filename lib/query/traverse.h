@@ -1,4 +1,4 @@
-// The one way through the rooms: broadphase, wide kernels, filter, exact arithmetic where that is in doubt, collector.
+// How hits are found: broadphase, wide kernels, filter, exact arithmetic where that is in doubt, collector.
 #pragma once
 
 #include <bit>
@@ -26,8 +26,7 @@ void test_triangle(const Scene<Scalar>& scene, const Path& path, TriangleRef tri
 }
 
 /// Gives the collector those of a cluster's triangles that are in `lanes`. Returns the fraction from which on hits are
-/// of
-/// no use.
+/// of no use.
 template <class Kernel, class Scalar, class Collector>
 double test_cluster(const Scene<Scalar>& scene, const Path& path, ClusterRef cluster, unsigned lanes,
                     const QueryOptions& options, double most, QueryCounters& counters, Collector& collector) {
@@ -42,7 +41,7 @@ double test_cluster(const Scene<Scalar>& scene, const Path& path, ClusterRef clu
 /// Gives the collector of a query each triangle that the path hits under `options` before `most`. A collector has
 ///   double limit()                hits beyond this fraction are of no use; negative: none is any more
 ///   bool wants(triangle)          whether to look at it at all
-///   Candidate& room()             where the next hit is to be written (a copy of what was just written would wait for memory)
+///   Candidate& room()             where the next hit is to be written (a copy of it would wait for memory)
 ///   void add()                    the hit that was written there counts
 ///   void seen(triangle)           this was one that the wide kernels left
 /// `most`, or `options.max_fraction`, must not be NaN.
