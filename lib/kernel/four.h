@@ -126,11 +126,6 @@ template <class Four>
 [[nodiscard]] [[gnu::always_inline]] inline Four magnitudes(Four x) {
     return x & Four::all(__builtin_bit_cast(double, 0x7fffffffffffffffLL));
 }
-template <class Four>
-[[nodiscard]] [[gnu::always_inline]] inline Four sign_bits(Four x) {
-    return x & Four::all(-0.0);
-}
-
 /// Double-doubles of which both parts are four.
 template <class Four>
 using FineFour = BasicDoubleDouble<Four, typename Four::Product>;
