@@ -131,7 +131,7 @@ bool is_far_enough(const Corners& corners, const Point& from, const Point& point
     const Magnitude volume = magnitude(there);
     if (compare_products(volume, Magnitude(1), magnitude(here), Magnitude(1)) >= 0) return true;
 
-    // volume >= grain |n|
+    // volume >= grain |n|, or just not: a point that lies exactly a grain off is not refused by the roundings here.
     const OddPoint a = odd(corners[0]);
     const OddPoint b = odd(corners[1]);
     const OddPoint c = odd(corners[2]);
@@ -151,7 +151,7 @@ bool is_far_enough(const Corners& corners, const Point& from, const Point& point
     const Scaled far(volume);
     const int exponent =
         highest - far.exponent;  // of what is compared with 1/2 to 1; it is far away from that where it is large
-    return far.mantissa >= std::ldexp(grain, std::clamp(exponent, -3000, 3000)) * std::sqrt(square) * (1 + 0x1p-47);
+    return far.mantissa >= std::ldexp(grain, std::clamp(exponent, -3000, 3000)) * std::sqrt(square) * (1 - 0x1p-41);
 }
 
 template Point exact_position<float>(const Path&, const Corners&);

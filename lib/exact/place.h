@@ -11,7 +11,7 @@ template <class Scalar>
 [[nodiscard]] Point exact_position(const Path& path, const Corners& corners);
 
 /// Whether a point is strictly on the side of the plane that `from` is strictly on, and as far from it as `from` or at
-/// least `grain` away. (Of points less than 2^-46 of a grain further than that it may say no.)
+/// least `grain` away, of which 2^-40 may be missing: a point that lies exactly so far away is far enough.
 [[nodiscard]] bool is_far_enough(const Corners& corners, const Point& from, const Point& point, double grain);
 
 }  // namespace pierce::detail

@@ -52,7 +52,7 @@ inline constexpr double k_reach_units = k_grain_units + 8;
 }
 
 /// Of a grain, so that a point that lies exactly a grain off is not refused by the roundings in Farness (2^-47).
-inline constexpr double k_far = 1 - 0x1p-40;
+inline constexpr double k_nearly = 1 - 0x1p-40;
 /// More than products lose where they underflow, 2^-1075 each. A normal number: products with one that is not take 150
 /// cycles.
 inline constexpr double k_underflow = 0x1p-1000;
@@ -72,14 +72,15 @@ class Farness {
           n_(magnitudes(out_)),
           dn_(Four::load(values.normal_errors) + Four::all(0x1p-51) * n_) {
         const Four x = (point - Four::load(values.high)) - Four::load(values.low);
-        constexpr double k_up = 0x1p60;  // or the inverse of a subnormal unit would be infinite
-        const Four units = Four::all(k_up) * x * Four::all(1 / (of.unit * k_up));
+        // Or the inverse of a subnormal unit would be infinite, and multiples of a huge one as well.
+        const double scale = of.unit < 1 ? 0x1p60 : 0x1p-60;
+        const Four units = Four::all(scale) * x * Four::all(1 / (of.unit * scale));
         const Four off = dn_ * magnitudes(x) + (n_ + dn_) * Four::load(values.error);
         const Four sums = Four::sums(out_ * x, off, units * units, units);
         from_plane_ = Four::lane(sums, 0);
         plane_error_ = 1.01 * (Four::lane(sums, 1) + k_underflow);
         square_ = Four::lane(sums, 2);
-        wanted_ = k_far * of.grain * (values.length + values.length_error);
+        wanted_ = k_nearly * of.grain * (values.length + values.length_error);
     }
     /// Whether the point is finite and within reach of the true one.
     [[nodiscard]] [[gnu::always_inline]] bool within_reach() const { return square_ <= of_.reach * of_.reach; }

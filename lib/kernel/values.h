@@ -22,8 +22,9 @@ struct Values {
     double normal_errors[4];  ///< of each component, as it is here
     double length;            ///< |normal|
     double length_error;      ///< the sum of normal_errors
-    double distance;          ///< of the start from the plane, at least but for a rounding, in units of |normal|
-    double high[4];           ///< `high + low` is within `error` of the true point
+    /// Of the start from the plane, at least but for a rounding, in units of |normal|; only about that unless `located`.
+    double distance;
+    double high[4];  ///< `high + low` is within `error` of the true point
     double low[4];
     double error[4];
     // What follows depends on the Scalar that values are rounded to.

@@ -25,6 +25,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include <exact/place.h>
@@ -80,14 +81,16 @@ class PlaceSearch {
     }
     // Not inlined: what Nearby takes is on the stack only where it is needed.
     [[gnu::noinline]] bool find_around(Hit<Scalar>& hit) {
-        const typename Ways::Nearby nearby(ways_);
+        typename Ways::Nearby nearby(ways_);
         Around around{high_, low_, unit_, {}};
         for (std::size_t k = 0; k < 3; ++k)
             around.rounding[k] = last_place<Scalar>(std::abs(high_[k]) + k_reach_units * unit_) / unit_ / 2;
         HalfSpaces chosen;
         chosen.push({unit_normal_, off_length_ / unit_ + around.slack(unit_normal_)});
         if (find_clear(around, chosen, hit)) return true;
-        if (tries_ == 0) return false;
+        // As a rule that nothing was stopped says that no place is far enough. Not where P was rounded itself, or units are
+        // subnormal and products with them too.
+        if (tries_ == 0 && values_.located && unit_ >= std::numeric_limits<double>::min()) return false;
         // Thin corners: room for no rounding, but all eight ways to round.
         thin_ = true;
         most_tries_ += k_most_tries;
@@ -180,7 +183,8 @@ class PlaceSearch {
     }
 
     void find_back(double below, Hit<Scalar>& hit) {
-        // Between the start and the first point tried, both of which are far enough from the plane.
+        // Between the start and the first point tried. These are far enough from the plane; what is between them is
+        // rounded, and may lie behind it.
         double way = 0;
         for (std::size_t k = 0; k < 3; ++k)
             way = std::max(way, std::abs(high_[k] / 2 + off_[k] / 2 - path_.from[k] / 2));
@@ -192,16 +196,20 @@ class PlaceSearch {
             for (std::size_t k = 0; k < 3; ++k) point[k] = path_.from[k] * back + (high_[k] + off_[k]) * share;
             point = rounded_to<Scalar>(point);
             hit.fraction = rounded_down<Scalar>(below * share);
-            if (point != path_.from && take(point, false, hit) == Found::clear) return;
+            if (try_back(point, hit)) return;
             for (std::size_t k = 0; k < 3; ++k)
                 if (out_[k] != 0) point[k] = next_to<Scalar>(point[k], out_[k]);
-            if (point != path_.from && take(point, false, hit) == Found::clear) return;
+            if (try_back(point, hit)) return;
         }
         hit.fraction = 0;
         for (int k = 0; k < 3; ++k) hit.point[k] = static_cast<Scalar>(path_.from[static_cast<std::size_t>(k)]);
     }
 
-    // A point that is far enough from the plane.
+    bool try_back(const Point& point, Hit<Scalar>& hit) {
+        return point != path_.from && is_finite_and_far(point) && take(point, false, hit) == Found::clear;
+    }
+
+    // Of a point that is known to be far enough from the plane: `ways_` does not ask about the hit's own triangle.
     Found take(const Point& point, bool near, Hit<Scalar>& hit) {
         if (point != path_.from) {
             if (near ? ways_.stops(point, blocker_, blocked_) : !ways_.clear(point, false)) {
@@ -223,7 +231,7 @@ class PlaceSearch {
     bool is_exactly_far(const Point& point) {
         if (point == path_.from) return true;
         ++counters_.exact_sides;
-        return is_far_enough(corners_, path_.from, point, k_far * of_.grain);
+        return is_far_enough(corners_, path_.from, point, of_.grain);
     }
 
     const Path& path_;

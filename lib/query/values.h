@@ -24,6 +24,12 @@ inline constexpr double k_tolerance = sizeof(Scalar) == sizeof(float) ? 0x1p-29 
     return x.weight_error <= tolerance && (decision.at_start || x.fraction_error <= tolerance * x.weights[3]);
 }
 
+/// The same for the normal. Where its square overflows the length is infinite, and so is the error: nothing is known.
+template <class Scalar>
+[[nodiscard]] inline bool normal_is_near(const Values& x) {
+    return x.normal_error <= k_tolerance<Scalar> * x.length && x.length < std::numeric_limits<double>::infinity();
+}
+
 /// What a hit on an edge, a corner or at the start is known to have.
 inline void set_features(const Path& path, const Decision& decision, Values& values) {
     if (decision.at_start) {
@@ -48,7 +54,7 @@ inline void measure_exactly(const Path& path, const Corners& corners, QueryCount
 template <class Scalar>
 [[nodiscard]] inline bool are_certain(const Values& x, const Decision& decision) {
     const bool near = measures_are_near(x, decision, k_tolerance<Scalar>);
-    return near && x.normal_error <= k_tolerance<Scalar> * x.length && (decision.at_start || (x.located && x.rounded));
+    return near && normal_is_near<Scalar>(x) && (decision.at_start || (x.located && x.rounded));
 }
 
 /// Makes certain what is not.
@@ -63,7 +69,7 @@ template <class Scalar>
     }
     const Corners corners = corners_of(measured);
     if (!measures_are_near(values, decision, k_tolerance<Scalar>)) measure_exactly(path, corners, counters, values);
-    if (!(values.normal_error <= k_tolerance<Scalar> * values.length)) {
+    if (!normal_is_near<Scalar>(values)) {
         ++counters.exact_values;
         const Point normal = exact_planes(corners).normal;
         values.length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
