@@ -5,6 +5,7 @@
 #include <cluster/record.h>
 #include <kernel/flight.h>
 #include <kernel/narrow.h>
+#include <kernel/per_scalar.h>
 #include <kernel/probe.h>
 #include <node.h>
 
@@ -25,19 +26,9 @@ struct ScalarKernels {
     unsigned (*test_cluster)(const Probe<Scalar>& probe, const Scalar* records, ClusterRef cluster, float limit);
 };
 
-struct Backend {
+struct Backend : PerScalar<ScalarKernels> {
     const char* name;
-    ScalarKernels<float> of_floats;
-    ScalarKernels<double> of_doubles;
     const Narrow* narrow;
-
-    template <class Scalar>
-    [[nodiscard]] const ScalarKernels<Scalar>& of() const {
-        if constexpr (sizeof(Scalar) == sizeof(float))
-            return of_floats;
-        else
-            return of_doubles;
-    }
 };
 
 // One for each file backend_*.cpp.

@@ -105,14 +105,19 @@ template <class Four = TwoPairs>
 
 /// The closed rule where some volumes are certainly 0, as those of planes, edges and starts along axes are: each
 /// product in them is.
-[[nodiscard]] [[gnu::always_inline]] inline Verdict settle(const Measured& x, Sides sides, Decision& decision) {
+template <class Four>
+[[nodiscard]] [[gnu::always_inline]] inline Verdict settle(const Measured& x, const FilterVolumes<Four>& volumes,
+                                                           const FilterVolumes<Four>& e, Sides sides,
+                                                           Decision& decision) {
     constexpr int k_unknown = 2;
-    constexpr double u = Arithmetic<double>::unit;
     const auto sign = [](double y, double bound) __attribute__((always_inline)) {
         return y > bound ? 1 : y < -bound ? -1 : bound == 0 ? 0 : k_unknown;
     };
-    const int v = sign(x.v(), 9 * u * x.bar_vc[0]);
-    const int end = sign(x.v() - x.s(), 10 * u * (x.bar_sb[0] + x.bar_vc[0]));
+    const auto sign_in = [sign](Four y, Four bound, int lane) __attribute__((always_inline)) {
+        return sign(Four::lane(y, lane), Four::lane(bound, lane));
+    };
+    const int v = sign_in(volumes.sbvc, e.sbvc, 2);
+    const int end = sign_in(volumes.ends, e.ends, 1);
     if (v == k_unknown || end == k_unknown) return Verdict::doubtful;
     if (!(passes_front(-v, -end) && sides != Sides::back) && !(passes_back(-v, -end, sides) && sides != Sides::front))
         return Verdict::miss;
@@ -125,10 +130,9 @@ template <class Four = TwoPairs>
     const Triple<double> ob = {ba.x[0] - af.x[1], ba.y[0] - af.y[1], ba.z[0] - af.z[1]};
     const Triple<double> d = {x.meeting.qd.x[1], x.meeting.qd.y[1], x.meeting.qd.z[1]};
     const double bar = dot(magnitudes_of(bc), cross_of_magnitudes(magnitudes_of(ob), magnitudes_of(d)));
-    const int own = sign(dot(bc, cross(ob, d)), 9 * u * bar);
-    const double ea = 12 * u * (x.bar_sb[0] + x.bar_sb[1] + x.bar_vc[1]);
-    const int weights[3] = {own != k_unknown ? own : sign(x.s() - x.b() - x.c(), ea), sign(x.b(), 9 * u * x.bar_sb[1]),
-                            sign(x.c(), 9 * u * x.bar_vc[1])};
+    const int own = sign(dot(bc, cross(ob, d)), 9 * Arithmetic<double>::unit * bar);
+    const int weights[3] = {own != k_unknown ? own : sign_in(volumes.ends, e.ends, 0), sign_in(volumes.sbvc, e.sbvc, 1),
+                            sign_in(volumes.sbvc, e.sbvc, 3)};
     // Where one has the wrong sign it is a miss, whatever the others are.
     bool unknown = false;
     for (const int w : weights) {
@@ -141,13 +145,28 @@ template <class Four = TwoPairs>
     return decision.hit ? Verdict::hit : Verdict::miss;
 }
 
-/// Never wrong about a hit, with its side and feature, or a miss by the closed rule.
-template <class Four = TwoPairs>
-[[nodiscard]] [[gnu::always_inline]] inline Filtered filter(const Measured& x, Sides sides) {
-    Filtered filtered = filter_strictly<Four>(x, sides);
-    if (filtered.verdict != Verdict::doubtful || !x.tame) return filtered;
-    filtered.verdict = settle(x, sides, filtered.decision);
+/// Never wrong about a hit, with its side and feature, or a miss by the closed rule. Of a `filtered` that was used
+/// before, the decision is written where it is a hit, the interval unless it is a miss.
+template <class Four>
+[[gnu::always_inline]] inline void filter(const Measured& x, Sides sides, Filtered& filtered) {
+    if (!x.tame) {
+        filtered.verdict = Verdict::doubtful;
+        filtered.earliest = 0;
+        filtered.latest = 1;
+        return;
+    }
+    const FilterVolumes<Four> volumes = volumes_of<Four>(x);
+    const FilterVolumes<Four> errors = errors_of<Four>(x);
+    filter_volumes(volumes, errors, sides, filtered);
+    if (filtered.verdict != Verdict::doubtful) [[likely]]
+        return;
+    filtered.decision.at_start = false;
+    filtered.verdict = settle(x, volumes, errors, sides, filtered.decision);
     if (filtered.decision.at_start) filtered.earliest = filtered.latest = 0;
+}
+[[nodiscard]] [[gnu::always_inline]] inline Filtered filter(const Measured& x, Sides sides) {
+    Filtered filtered{Verdict::doubtful};
+    filter<TwoPairs>(x, sides, filtered);
     return filtered;
 }
 

@@ -48,7 +48,7 @@ inline constexpr double k_reach_units = k_grain_units + 8;
             grain,
             grain / k_grain_units,
             side == Sides::front ? 1.0 : -1.0,
-            k_reach_units - 0.125};
+            k_reach_units - 0.125};  // less a sixteenth of a unit that each coordinate of the true one may be off
 }
 
 /// Of a grain, so that a point that lies exactly a grain off is not refused by the roundings in Farness (2^-47).

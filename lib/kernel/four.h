@@ -12,6 +12,23 @@
 
 namespace pierce::detail {
 
+/// The Scalar next to `x`, which is a finite one, in the direction of the sign of `sign`, +0 and -0 included. Without a
+/// branch: which way it goes can't be predicted.
+template <class Scalar>
+[[nodiscard]] [[gnu::always_inline]] inline double next_to(double x, double sign) {
+    if constexpr (sizeof(Scalar) == 4) {
+        const std::uint32_t bits = __builtin_bit_cast(std::uint32_t, static_cast<float>(x));
+        const auto wanted = static_cast<std::uint32_t>(__builtin_bit_cast(std::uint64_t, sign) >> 63 << 31);
+        const std::uint32_t next = (bits & 0x80000000U) == wanted ? bits + 1 : bits - 1;
+        return __builtin_bit_cast(float, x == 0 ? wanted | 1U : next);
+    } else {
+        const std::uint64_t bits = __builtin_bit_cast(std::uint64_t, x);
+        const std::uint64_t wanted = __builtin_bit_cast(std::uint64_t, sign) >> 63 << 63;
+        const std::uint64_t next = (bits & std::uint64_t{1} << 63) == wanted ? bits + 1 : bits - 1;
+        return __builtin_bit_cast(double, x == 0 ? wanted | 1U : next);
+    }
+}
+
 struct TwoPairs {
     Pair low;
     Pair high;
@@ -56,9 +73,6 @@ struct TwoPairs {
     [[gnu::always_inline]] friend inline TwoPairs operator|(TwoPairs x, TwoPairs y) {
         return {as_numbers(bits(x.low) | bits(y.low)), as_numbers(bits(x.high) | bits(y.high))};
     }
-    [[gnu::always_inline]] friend inline TwoPairs operator^(TwoPairs x, TwoPairs y) {
-        return {as_numbers(bits(x.low) ^ bits(y.low)), as_numbers(bits(x.high) ^ bits(y.high))};
-    }
     PIERCE_INLINE TwoPairs less(TwoPairs x, TwoPairs y) {
         return {as_numbers(x.low < y.low), as_numbers(x.high < y.high)};
     }
@@ -95,8 +109,9 @@ struct TwoPairs {
     /// The Scalars next to those in x, in the directions of the signs of `sign`, +0 and -0 included.
     template <class Scalar>
     PIERCE_INLINE TwoPairs next_to(TwoPairs x, TwoPairs sign) {
-        return {Pair{next_lane<Scalar>(x.low[0], sign.low[0]), next_lane<Scalar>(x.low[1], sign.low[1])},
-                Pair{next_lane<Scalar>(x.high[0], sign.high[0]), next_lane<Scalar>(x.high[1], sign.high[1])}};
+        return {
+            Pair{detail::next_to<Scalar>(x.low[0], sign.low[0]), detail::next_to<Scalar>(x.low[1], sign.low[1])},
+            Pair{detail::next_to<Scalar>(x.high[0], sign.high[0]), detail::next_to<Scalar>(x.high[1], sign.high[1])}};
     }
 
   private:
@@ -105,20 +120,6 @@ struct TwoPairs {
     template <class Scalar>
     PIERCE_INLINE double rounded_lane(double x) {
         return static_cast<double>(static_cast<Scalar>(x));
-    }
-    template <class Scalar>
-    PIERCE_INLINE double next_lane(double x, double sign) {
-        if constexpr (sizeof(Scalar) == 4) {
-            const std::uint32_t bits = __builtin_bit_cast(std::uint32_t, static_cast<float>(x));
-            const auto wanted = static_cast<std::uint32_t>(__builtin_bit_cast(std::uint64_t, sign) >> 63 << 31);
-            const std::uint32_t next = (bits & 0x80000000U) == wanted ? bits + 1 : bits - 1;
-            return __builtin_bit_cast(float, x == 0 ? wanted | 1U : next);
-        } else {
-            const std::uint64_t bits = __builtin_bit_cast(std::uint64_t, x);
-            const std::uint64_t wanted = __builtin_bit_cast(std::uint64_t, sign) >> 63 << 63;
-            const std::uint64_t next = (bits & std::uint64_t{1} << 63) == wanted ? bits + 1 : bits - 1;
-            return __builtin_bit_cast(double, x == 0 ? wanted | 1U : next);
-        }
     }
 };
 

@@ -30,7 +30,6 @@ struct OneRegister {
     PIERCE_INLINE OneRegister all(double x) { return {_mm256_set1_pd(x)}; }
     PIERCE_INLINE OneRegister of(Pair low, Pair high) { return {_mm256_set_m128d(high, low)}; }
     PIERCE_INLINE OneRegister load(const double* x) { return {_mm256_loadu_pd(x)}; }
-    PIERCE_INLINE OneRegister load_point(const double* x) { return of(_mm_loadu_pd(x), _mm_load_sd(x + 2)); }
     PIERCE_INLINE OneRegister first_lanes(const Triple<Pair>& x) { return of(_mm_unpacklo_pd(x.x, x.y), x.z); }
     PIERCE_INLINE OneRegister second_lanes(const Triple<Pair>& x) {
         return of(_mm_unpackhi_pd(x.x, x.y), _mm_unpackhi_pd(x.z, x.z));
@@ -57,9 +56,6 @@ struct OneRegister {
     }
     [[gnu::always_inline]] friend inline OneRegister operator|(OneRegister x, OneRegister y) {
         return {_mm256_or_pd(x.four, y.four)};
-    }
-    [[gnu::always_inline]] friend inline OneRegister operator^(OneRegister x, OneRegister y) {
-        return {_mm256_xor_pd(x.four, y.four)};
     }
     PIERCE_INLINE OneRegister less(OneRegister x, OneRegister y) { return {_mm256_cmp_pd(x.four, y.four, _CMP_LT_OQ)}; }
     PIERCE_INLINE OneRegister at_most(OneRegister x, OneRegister y) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include <kernel/per_scalar.h>
 #include <kernel/values.h>
 #include <kernel/verdict.h>
 
@@ -32,18 +33,7 @@ struct NarrowKernels {
                             Rounded<Scalar>& rounded);
 };
 
-struct Narrow {
-    NarrowKernels<float> of_floats;
-    NarrowKernels<double> of_doubles;
-
-    template <class Scalar>
-    [[nodiscard]] const NarrowKernels<Scalar>& of() const {
-        if constexpr (sizeof(Scalar) == sizeof(float))
-            return of_floats;
-        else
-            return of_doubles;
-    }
-};
+using Narrow = PerScalar<NarrowKernels>;
 
 // One for each file narrow_*.cpp.
 extern const Narrow k_narrow;

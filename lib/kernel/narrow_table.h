@@ -29,18 +29,7 @@ struct NarrowOf {
     static void filter_row(Row<Scalar> row, const double* from, const double* to, Sides sides, Filtered& filtered,
                            Measured& measured) {
         measure_row(row, from, to, measured);
-        if (!measured.tame) {
-            filtered.verdict = Verdict::doubtful;
-            filtered.earliest = 0;
-            filtered.latest = 1;
-            return;
-        }
-        filter_volumes(volumes_of<Four>(measured), errors_of<Four>(measured), sides, filtered);
-        if (filtered.verdict != Verdict::doubtful) [[likely]]
-            return;
-        filtered.decision.at_start = false;
-        filtered.verdict = settle(measured, sides, filtered.decision);
-        if (filtered.decision.at_start) filtered.earliest = filtered.latest = 0;
+        filter<Four>(measured, sides, filtered);
     }
 
     template <class Number>

@@ -32,7 +32,7 @@ struct KernelsOf {
 
 template <class Wide, class Flights = Wide>
 constexpr Backend backend_named(const char* name, const Narrow& narrow = k_narrow) {
-    return {name, KernelsOf<Wide, Flights, float>::table(), KernelsOf<Wide, Flights, double>::table(), &narrow};
+    return {{KernelsOf<Wide, Flights, float>::table(), KernelsOf<Wide, Flights, double>::table()}, name, &narrow};
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Values {
     double normal_errors[4];  ///< of each component, as it is here
     double length;            ///< |normal|
     double length_error;      ///< the sum of normal_errors
-    /// Of the start from the plane, at least but for a rounding, in units of |normal|; only about that unless `located`.
+    /// Of the start from the plane, in units of |normal|: at least that but for a rounding, or about, unless `located`.
     double distance;
     double high[4];  ///< `high + low` is within `error` of the true point
     double low[4];

@@ -41,16 +41,4 @@ template <class Scalar>
     return {rounded(point[0]), rounded(point[1]), rounded(point[2])};
 }
 
-/// The number next to `x`, which is a Scalar and finite, in the direction of `sign`, which is not 0. Without a branch:
-/// which way it goes can't be predicted.
-template <class Scalar>
-[[nodiscard]] double next_to(double x, double sign) {
-    using Bits = std::conditional_t<sizeof(Scalar) == 4, std::int32_t, std::int64_t>;
-    constexpr Bits k_sign = std::numeric_limits<Bits>::min();
-    const auto bits = std::bit_cast<Bits>(static_cast<Scalar>(x));
-    const auto wanted = std::bit_cast<Bits>(static_cast<Scalar>(std::copysign(1.0, sign))) & k_sign;
-    const Bits next = (bits & k_sign) == wanted ? bits + 1 : bits - 1;
-    return static_cast<double>(std::bit_cast<Scalar>(x == 0 ? wanted | 1 : next));
-}
-
 }  // namespace pierce::detail

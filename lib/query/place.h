@@ -22,7 +22,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -37,6 +36,12 @@
 
 namespace pierce::detail {
 
+template <class Scalar>
+void stay_at_start(const Path& path, Hit<Scalar>& hit) {
+    hit.fraction = 0;
+    for (int k = 0; k < 3; ++k) hit.point[k] = static_cast<Scalar>(path.from[static_cast<std::size_t>(k)]);
+}
+
 /// Looks for the verified point of a hit that does not start on its face.
 template <class Scalar, class Ways>
 class PlaceSearch {
@@ -44,15 +49,9 @@ class PlaceSearch {
     /// `values`: as certify() left them. `corners`: of the face.
     PlaceSearch(const Path& path, const Corners& corners, const PlaceOf& of, const Values& values,
                 QueryCounters& counters, const Ways& ways)
-        : path_(path),
-          corners_(corners),
-          of_(of),
-          unit_(of.unit),
-          values_(values),
-          counters_(counters),
-          ways_(ways),
-          reach_(k_reach_units - (values.located ? 0.125 : 1)) {
-        of_.reach = reach_;
+        : path_(path), corners_(corners), of_(of), values_(values), counters_(counters), ways_(ways) {
+        // The true point was only rounded: half a unit a coordinate off.
+        if (!values.located) of_.reach = k_reach_units - 1;
         const double inverse = 1 / values.length;
         off_length_ = std::min(of.grain, values.distance * inverse);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -82,21 +81,21 @@ class PlaceSearch {
     // Not inlined: what Nearby takes is on the stack only where it is needed.
     [[gnu::noinline]] bool find_around(Hit<Scalar>& hit) {
         typename Ways::Nearby nearby(ways_);
-        Around around{high_, low_, unit_, {}};
+        Around around{high_, low_, of_.unit, {}};
         for (std::size_t k = 0; k < 3; ++k)
-            around.rounding[k] = last_place<Scalar>(std::abs(high_[k]) + k_reach_units * unit_) / unit_ / 2;
+            around.rounding[k] = last_place<Scalar>(std::abs(high_[k]) + k_reach_units * of_.unit) / of_.unit / 2;
         HalfSpaces chosen;
-        chosen.push({unit_normal_, off_length_ / unit_ + around.slack(unit_normal_)});
+        chosen.push({unit_normal_, off_length_ / of_.unit + around.slack(unit_normal_)});
         if (find_clear(around, chosen, hit)) return true;
-        // As a rule that nothing was stopped says that no place is far enough. Not where P was rounded itself, or units are
-        // subnormal and products with them too.
-        if (tries_ == 0 && values_.located && unit_ >= std::numeric_limits<double>::min()) return false;
+        // As a rule that nothing was stopped says that no place is far enough. Not where P was rounded itself, or units
+        // are subnormal and products with them too.
+        if (tries_ == 0 && values_.located && of_.unit >= std::numeric_limits<double>::min()) return false;
         // Thin corners: room for no rounding, but all eight ways to round.
         thin_ = true;
         most_tries_ += k_most_tries;
         around.rounding = {};
         HalfSpaces again;
-        again.push({unit_normal_, off_length_ / unit_});
+        again.push({unit_normal_, off_length_ / of_.unit});
         const int so_far = tries_;
         if (find_clear(around, again, hit)) return true;
         return tries_ != so_far && find_in_ball(hit);
@@ -107,7 +106,7 @@ class PlaceSearch {
     bool find_in_ball(Hit<Scalar>& hit) {
         // P was rounded, so that places a unit nearer to the plane may be far enough.
         return each_on_lattice<Scalar, k_most_steps>(
-            high_, low_, unit_, unit_normal_, off_length_ - unit_, reach_, [&](const Point& point) {
+            high_, low_, of_.unit, unit_normal_, off_length_ - of_.unit, of_.reach, [&](const Point& point) {
                 return !ways_.hides(point) && is_finite_and_far(point) && ways_.clear(point, true) &&
                        take(point, true, hit) == Found::clear;
             });
@@ -118,12 +117,12 @@ class PlaceSearch {
     // first.
     bool find_clear(const Around& around, HalfSpaces& chosen, Hit<Scalar>& hit) {
         Point x{};
-        return tries_ < most_tries_ && chosen.nearest(reach_, x) && find_clear_from(around, chosen, x, hit);
+        return tries_ < most_tries_ && chosen.nearest(of_.reach, x) && find_clear_from(around, chosen, x, hit);
     }
     // `x`: their nearest point.
     bool find_clear_from(const Around& around, HalfSpaces& chosen, const Point& x, Hit<Scalar>& hit) {
         Point by{};
-        for (std::size_t k = 0; k < 3; ++k) by[k] = unit_ * x[k];
+        for (std::size_t k = 0; k < 3; ++k) by[k] = of_.unit * x[k];
         if (!try_roundings(by, hit)) return found_;
         if (chosen.full()) return false;
         WaysOut ways(blocker_, blocked_, path_.from, around);
@@ -134,7 +133,7 @@ class PlaceSearch {
             // A point beyond it may be stopped all the same: by the plane's own rounding.
             out.least = std::max(out.least, dot_product(out.normal, x) + around.slack(out.normal) / 2 + 0x1p-4);
             chosen.push(out);
-            cost[i] = chosen.nearest(reach_, there[i]) ? dot_product(there[i], there[i]) : HUGE_VAL;
+            cost[i] = chosen.nearest(of_.reach, there[i]) ? dot_product(there[i], there[i]) : HUGE_VAL;
             chosen.pop();
         }
         for (std::size_t n = 0; n < ways.count; ++n) {
@@ -188,7 +187,7 @@ class PlaceSearch {
         double way = 0;
         for (std::size_t k = 0; k < 3; ++k)
             way = std::max(way, std::abs(high_[k] / 2 + off_[k] / 2 - path_.from[k] / 2));
-        double back = 4 * unit_ / way;
+        double back = 4 * of_.unit / way;
         if (!(back > 0)) back = 1;
         for (; back < 1; back *= 2) {
             const double share = 1 - back;
@@ -201,8 +200,7 @@ class PlaceSearch {
                 if (out_[k] != 0) point[k] = next_to<Scalar>(point[k], out_[k]);
             if (try_back(point, hit)) return;
         }
-        hit.fraction = 0;
-        for (int k = 0; k < 3; ++k) hit.point[k] = static_cast<Scalar>(path_.from[static_cast<std::size_t>(k)]);
+        stay_at_start(path_, hit);
     }
 
     bool try_back(const Point& point, Hit<Scalar>& hit) {
@@ -237,7 +235,6 @@ class PlaceSearch {
     const Path& path_;
     const Corners& corners_;
     PlaceOf of_;
-    double unit_;
     const Values& values_;
     QueryCounters& counters_;
     const Ways& ways_;
@@ -245,9 +242,6 @@ class PlaceSearch {
     int most_tries_ = k_most_tries;
     bool thin_ = false;
     bool found_ = false;
-    /// Less what the true point may be off: a sixteenth of a unit a coordinate, or half a unit where it was only
-    /// rounded.
-    double reach_;
     double off_length_ = 0;
     Corners blocker_{};
     Decision blocked_{};  ///< the hit on it
@@ -288,8 +282,7 @@ template <class Scalar, class Ways>
 int place(const Path& path, const Measured& measured, const Decision& decision, double grain, const Values& values,
           const Rounded<Scalar>& rounded, QueryCounters& counters, const Ways& ways, Hit<Scalar>& hit) {
     if (decision.at_start) {
-        hit.fraction = 0;
-        for (int k = 0; k < 3; ++k) hit.point[k] = static_cast<Scalar>(path.from[static_cast<std::size_t>(k)]);
+        stay_at_start(path, hit);
         return 0;
     }
     const Point point{values.point[0], values.point[1], values.point[2]};

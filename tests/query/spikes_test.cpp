@@ -140,21 +140,22 @@ void expect_naive_answers(std::uint32_t faces, int meshes, int segments) {
     EXPECT_GT(retreats, 100U);
 }
 
+void expect_naive_answers_of_both(std::uint32_t faces, int meshes, int segments) {
+    expect_naive_answers<float>(faces, meshes, segments);
+    expect_naive_answers<double>(faces, meshes, segments);
+}
+
 TEST(Spikes, naive_answers_with_3_faces) {
-    expect_naive_answers<float>(3, 40, 40);
-    expect_naive_answers<double>(3, 40, 40);
+    expect_naive_answers_of_both(3, 40, 40);
 }
 TEST(Spikes, naive_answers_with_12_faces) {
-    expect_naive_answers<float>(12, 20, 20);
-    expect_naive_answers<double>(12, 20, 20);
+    expect_naive_answers_of_both(12, 20, 20);
 }
 TEST(Spikes, naive_answers_with_50_faces) {
-    expect_naive_answers<float>(50, 10, 10);
-    expect_naive_answers<double>(50, 10, 10);
+    expect_naive_answers_of_both(50, 10, 10);
 }
 TEST(Spikes, naive_answers_with_200_faces) {
-    expect_naive_answers<float>(200, 5, 10);
-    expect_naive_answers<double>(200, 5, 10);
+    expect_naive_answers_of_both(200, 5, 10);
 }
 
 // What a shadow says is so: for triangles of all shapes and starts close to their planes, of places within parts of a
