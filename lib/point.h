@@ -13,7 +13,13 @@ template <class Scalar>
 
 template <class Scalar>
 [[nodiscard]] Path to_path(const Segment<Scalar>& segment) {
-    return {to_point(segment.from), to_point(segment.to)};
+    return {.from = to_point(segment.from), .to = to_point(segment.to)};
+}
+template <class Scalar>
+[[nodiscard]] Path to_path(const Segment<Scalar>& segment, double max_fraction) {
+    Path path = to_path(segment);
+    path.most = max_fraction;
+    return path;
 }
 
 }  // namespace pierce::detail

@@ -1,6 +1,7 @@
 // A mesh made ready for queries: built once, then immutable and shared by threads.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -14,6 +15,7 @@
 #include <pierce/mesh_report.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
+#include <pierce/ray.h>
 #include <pierce/types.h>
 
 namespace pierce {
@@ -73,6 +75,28 @@ class CollisionMesh {
     std::size_t all_hits(const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
                          const QueryOptions& options = {}) const noexcept;
 
+    /// The same for a ray (`Ray` says what it is). `fraction`, `exact_fraction`, `max_fraction` and `Contact::fraction`
+    /// are then the ray's t, the exact one within 1 ulp, or the largest number where t is above it. The rules are those
+    /// of the segment that ends at the ray's true end, and so are the promises: the way from `origin` to the hit's
+    /// `point` has no hit, so that a chain of rays from point to point cannot get through a closed surface. A ray costs
+    /// what the part of it in the mesh's box costs. (Templates, so that `first_hit({from, to})` is a segment.)
+    template <std::same_as<Ray<Scalar>> Way>
+    [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Way& ray, const QueryOptions& options = {}) const noexcept {
+        return first_hit_of_ray(ray, options);
+    }
+    template <std::same_as<Ray<Scalar>> Way>
+    [[nodiscard]] bool any_hit(const Way& ray, const QueryOptions& options = {}) const noexcept {
+        return any_hit_of_ray(ray, options);
+    }
+    template <std::same_as<Ray<Scalar>> Way>
+    std::size_t all_hits(const Way& ray, std::span<Hit<Scalar>> out, const QueryOptions& options = {}) const noexcept {
+        return all_hits_of_ray(ray, out, options);
+    }
+    template <std::same_as<Ray<Scalar>> Way>
+    [[nodiscard]] int crossings(const Way& ray, QueryCounters* counters = nullptr) const noexcept {
+        return crossings_of_ray(ray, counters);
+    }
+
     /// A point moves in a straight line from `from` to `to` over one step: when and where does it first run into the
     /// mesh? If the answer is empty it may be moved to `to`; otherwise to the hit's `point`, and never further.
     [[nodiscard]] std::optional<SweepHit<Scalar>> sweep(const Vec3<Scalar>& from, const Vec3<Scalar>& to,
@@ -128,6 +152,12 @@ class CollisionMesh {
     [[nodiscard]] MeshStatistics statistics() const noexcept;
 
   private:
+    std::optional<Hit<Scalar>> first_hit_of_ray(const Ray<Scalar>& ray, const QueryOptions& options) const noexcept;
+    bool any_hit_of_ray(const Ray<Scalar>& ray, const QueryOptions& options) const noexcept;
+    std::size_t all_hits_of_ray(const Ray<Scalar>& ray, std::span<Hit<Scalar>> out,
+                                const QueryOptions& options) const noexcept;
+    int crossings_of_ray(const Ray<Scalar>& ray, QueryCounters* counters) const noexcept;
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

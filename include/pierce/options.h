@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -95,8 +96,8 @@ class Accept {
 struct QueryOptions {
     /// The side that a segment must come from to hit a triangle.
     Sides sides = Sides::front;
-    /// Only hits whose exact fraction is at most this count. NaN: no hit.
-    double max_fraction = 1.0;
+    /// Only hits whose exact fraction, or t of a ray, is at most this count. NaN: no hit.
+    double max_fraction = std::numeric_limits<double>::infinity();
     /// If it is not empty, only faces count whose number is a place in it that is not 0.
     std::span<const std::uint8_t> face_mask = {};
     /// If given, only hits count that it says yes to.

@@ -14,5 +14,6 @@
 #include <pierce/hit.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
+#include <pierce/ray.h>
 #include <pierce/triangle_soup.h>
 #include <pierce/types.h>

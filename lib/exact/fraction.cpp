@@ -37,22 +37,22 @@ bool same_place(const Corners& first, const Decision& one, const Corners& second
 
 namespace {
 
-// Whether a <= limit sum, for 0 < a <= sum and 0 < limit < 1.
+// The order of a and limit sum, for 0 < a <= sum and 0 < limit < 1.
 template <int N>
-bool at_most(const Integer<N>& a, const Integer<N>& sum, double limit) {
+int compare_share(const Integer<N>& a, const Integer<N>& sum, double limit) {
     const Bits bits(limit);
-    // a 2^shift <= mantissa sum, where limit = mantissa / 2^shift. With mantissa < 2^53, a larger shift puts the right
-    // side below 1.
+    // a 2^shift against mantissa sum, where limit = mantissa / 2^shift. With mantissa < 2^53, a larger shift puts the
+    // right side below 1.
     const int shift = -bits.exponent;
-    if (shift > bit_length(sum) + 53) return false;
+    if (shift > bit_length(sum) + 53) return 1;
     Integer<1> mantissa;
     mantissa.limb[0] = bits.mantissa;
     const Integer<2 * N + 2> left = widen<2 * N + 2>(a) << shift;
-    return compare(left, widen<2 * N + 2>(sum * mantissa)) <= 0;
+    return compare(left, widen<2 * N + 2>(sum * mantissa));
 }
 
-bool at_most(const Magnitude& a, const Magnitude& sum, double limit) {
-    return compare_products(a, Magnitude(1), sum, Magnitude(limit)) <= 0;
+int compare_share(const Magnitude& a, const Magnitude& sum, double limit) {
+    return compare_products(a, Magnitude(1), sum, Magnitude(limit));
 }
 
 }  // namespace
@@ -66,15 +66,20 @@ bool in_one_axis_plane(const Corners& first, const Corners& second) {
     return false;
 }
 
-bool fraction_at_most(const Path& path, const Corners& corners, double limit) {
-    if (!(limit >= 0)) return false;
-    if (limit >= 1) return true;
+int compare_fraction(const Path& path, const Corners& corners, double limit) {
     return with_volumes(path, corners, [limit](const auto& volumes) {
         const auto a = magnitude(volumes.from_side());
-        if (a.zero() || limit == 0) return a.zero();
-        // The sum of integers of 3 N limbs is below 2^(192 N - 5), see with_limbs.
-        return at_most(a, a + magnitude(volumes.to_side()), limit);
+        if (a.zero() || limit == 0) return a.zero() ? (limit > 0 ? -1 : 0) : 1;
+        const auto b = magnitude(volumes.to_side());
+        if (limit >= 1) return b.zero() && limit == 1 ? 0 : -1;
+        // The sum of integers of 3 N limbs is below 2^(192 N - 4), see with_limbs.
+        return compare_share(a, a + b, limit);
     });
+}
+
+bool fraction_at_most(const Path& path, const Corners& corners, double limit) {
+    if (!(limit >= 0)) return false;
+    return limit >= 1 || compare_fraction(path, corners, limit) <= 0;
 }
 
 Measures measure(const Path& path, const Corners& corners) {

@@ -19,6 +19,9 @@ namespace pierce::detail {
 /// hits them at one fraction.
 [[nodiscard]] bool in_one_axis_plane(const Corners& first, const Corners& second);
 
+/// The order of the exact fraction of a hit and `limit`, which is at least 0.
+[[nodiscard]] int compare_fraction(const Path& path, const Corners& corners, double limit);
+
 /// Whether the exact fraction of a hit is at most `limit`. NaN: no.
 [[nodiscard]] bool fraction_at_most(const Path& path, const Corners& corners, double limit);
 

@@ -71,6 +71,11 @@ template <int N>
     return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
 }
 
+template <int N>
+[[nodiscard]] inline Vector<N> operator+(const Vector<N>& x, const Vector<N>& y) {
+    return {x[0] + y[0], x[1] + y[1], x[2] + y[2]};
+}
+
 template <int N, int M>
 [[nodiscard]] inline Vector<N + M> cross(const Vector<N>& x, const Vector<M>& y) {
     return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
@@ -85,8 +90,8 @@ template <int N, int M>
 /// apart for any.
 ///
 /// With coordinates below 2^b, b <= 64 N - 4, a difference is below 2^(b+1), a 2x2 minor of differences below 2^(2b+3),
-/// a 3x3 determinant of differences (three products of a minor and a difference) below 2^(3b+6): all fit N, 2N and 3N
-/// limbs with their sign bit. 1 limb serves float meshes whose coordinates span few exponents, 2 most others. Floats
+/// a 3x3 determinant of differences (three products of a minor and a difference) below 2^(3b+6), that of a ray's end, of
+/// which differences are below 2^(b+2), below 2^(3b+7): all fit N, 2N and 3N limbs with their sign bit, and sums of two. 1 limb serves float meshes whose coordinates span few exponents, 2 most others. Floats
 /// span up to 277 bits, doubles 2098: there accumulator.h is faster than 5 limbs (800 against 1,300 ns a decision).
 template <class F, class G>
 decltype(auto) with_limbs(int bits, F&& f, G&& wide) {

@@ -27,13 +27,23 @@ struct Ranks {
     }
 };
 
-// One coordinate of a hit: (B from + A to) / (A + B), A and B being the magnitudes of the ends' volumes.
+// One coordinate of a hit: (B from + A end) / (A + B), A and B being the magnitudes of the ends' volumes. The end is `to`,
+// or of a ray from + to.
 class Coordinate {
   public:
-    Coordinate(const Magnitude& a, const Magnitude& b, const Lattice& lattice, double from, double to)
-        : a_(a), b_(b), lattice_(lattice), from_(from), to_(to) {}
+    // The coordinate is not below `low`, and not above `high`.
+    Coordinate(const Magnitude& a, const Magnitude& b, const Lattice& lattice, const Path& path, std::size_t k,
+               double low, double high)
+        : a_(a),
+          b_(b),
+          lattice_(lattice),
+          from_(path.from[k]),
+          to_(path.to[k]),
+          ray_(path.ray),
+          low_(low),
+          high_(high) {}
 
-    // The sign of twice the coordinate - (x + y): of A (2 to - x - y) + B (2 from - x - y).
+    // The sign of twice the coordinate - (x + y): of A (2 end - x - y) + B (2 from - x - y).
     [[nodiscard]] int compare(double x, double y) const {
         Lattice lattice = lattice_;
         lattice.add(x);
@@ -41,6 +51,7 @@ class Coordinate {
         Accumulator sum(lattice, 4);
         for (int twice = 0; twice < 2; ++twice) {
             sum.add(false, a_, Odd(to_));
+            if (ray_) sum.add(false, a_, Odd(from_));
             sum.add(false, b_, Odd(from_));
         }
         for (const double z : {x, y}) {
@@ -59,8 +70,8 @@ class Coordinate {
             const int sign = compare(R::value(rank), R::value(rank + 1));
             return sign > 0 || (sign == 0 && rank % 2 != 0);
         };
-        Rank low = R::of(static_cast<Scalar>(std::min(from_, to_)));
-        Rank high = R::of(static_cast<Scalar>(std::max(from_, to_)));
+        Rank low = R::of(static_cast<Scalar>(low_));
+        Rank high = R::of(static_cast<Scalar>(high_));
         const Rank at = std::clamp(R::of(static_cast<Scalar>(start)), low, high);
         Rank step = 1;
         if (at < high && passes(at)) {
@@ -86,6 +97,9 @@ class Coordinate {
     const Lattice& lattice_;
     double from_;
     double to_;
+    bool ray_;
+    double low_;
+    double high_;
 };
 
 // A number > 0 as mantissa 2^exponent, within 2^-60 of itself.
@@ -106,18 +120,29 @@ Point exact_position(const Path& path, const Corners& corners) {
     const Magnitude a = magnitude(volumes.from_side());
     const Magnitude b = magnitude(volumes.to_side());
     if (a.zero()) return path.from;
-    if (b.zero()) return path.to;
-    const Scaled of_a(a);
-    const Scaled of_b(b);
-    const double ratio =
-        std::ldexp(of_b.mantissa / of_a.mantissa, std::clamp(of_b.exponent - of_a.exponent, -3000, 3000));
-    const double fraction = 1 / (1 + ratio);
+    if (b.zero() && !path.ray) return path.to;
+    double fraction = 1;
+    if (!b.zero()) {
+        const Scaled of_a(a);
+        const Scaled of_b(b);
+        const double ratio =
+            std::ldexp(of_b.mantissa / of_a.mantissa, std::clamp(of_b.exponent - of_a.exponent, -3000, 3000));
+        fraction = 1 / (1 + ratio);
+    }
     Point position{};
     for (std::size_t k = 0; k < 3; ++k) {
         const double from = path.from[k];
         const double to = path.to[k];
-        const double near = std::clamp(from * (1 - fraction) + to * fraction, std::min(from, to), std::max(from, to));
-        position[k] = Coordinate(a, b, lattice, from, to).rounded<Scalar>(near);
+        // Of the triangle, and of the segment.
+        double low = std::min({corners[0][k], corners[1][k], corners[2][k]});
+        double high = std::max({corners[0][k], corners[1][k], corners[2][k]});
+        if (!path.ray) {
+            low = std::max(low, std::min(from, to));
+            high = std::min(high, std::max(from, to));
+        }
+        const double near = path.ray ? from + to * fraction : from * (1 - fraction) + to * fraction;
+        position[k] =
+            Coordinate(a, b, lattice, path, k, low, high).rounded<Scalar>(std::clamp(near, low, high));
     }
     return position;
 }

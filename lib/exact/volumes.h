@@ -18,15 +18,16 @@ class Volumes {
   public:
     Volumes(const Path& path, const Corners& corners, const Lattice& lattice)
         : from_(on_lattice<N>(path.from, lattice)),
-          to_(on_lattice<N>(path.to, lattice)),
+          end_(path.ray ? from_ + on_lattice<N>(path.to, lattice) : on_lattice<N>(path.to, lattice)),
+          way_(end_ - from_),
           corner_{on_lattice<N>(corners[0], lattice), on_lattice<N>(corners[1], lattice),
                   on_lattice<N>(corners[2], lattice)},
           normal_(cross(corner_[1] - corner_[0], corner_[2] - corner_[0])) {}
 
     [[nodiscard]] Integer<3 * N> from_side() const { return side_volume<N>(normal_, corner_[0], from_); }
-    [[nodiscard]] Integer<3 * N> to_side() const { return side_volume<N>(normal_, corner_[0], to_); }
+    [[nodiscard]] Integer<3 * N> to_side() const { return side_volume<N>(normal_, corner_[0], end_); }
 
-    /// (to - from) . ((next - from) x (other - from)) for corner k, where `other` and `next` are the two corners after
+    /// way . ((next - from) x (other - from)) for corner k, where `other` and `next` are the two corners after
     /// it.
     /// The three add up to from_side() - to_side(); divided by that sum they are the barycentric weights of the point
     /// where the line through the segment meets the plane (Cramer's rule). In front of the triangle the weight is
@@ -34,14 +35,14 @@ class Volumes {
     [[nodiscard]] Integer<3 * N> weight(int k) const {
         const Vector<N> after = corner_[(k + 1) % 3] - from_;
         const Vector<N> before = corner_[(k + 2) % 3] - from_;
-        return dot(to_ - from_, cross(before, after));
+        return dot(way_, cross(before, after));
     }
 
     /// The sign of n . (e, e^2, e^3) for e -> 0+.
     [[nodiscard]] int normal_shift() const { return first_sign(normal_); }
-    /// The same for (to - from) x (the edge opposite to corner k, from the corner before it to the one after it).
+    /// The same for way x (the edge opposite to corner k, from the corner before it to the one after it).
     [[nodiscard]] int edge_shift(int k) const {
-        return first_sign(cross(to_ - from_, corner_[(k + 1) % 3] - corner_[(k + 2) % 3]));
+        return first_sign(cross(way_, corner_[(k + 1) % 3] - corner_[(k + 2) % 3]));
     }
 
   private:
@@ -52,7 +53,8 @@ class Volumes {
     }
 
     Vector<N> from_;
-    Vector<N> to_;
+    Vector<N> end_;
+    Vector<N> way_;
     Vector<N> corner_[3];
     Vector<2 * N> normal_;
 };
@@ -64,12 +66,24 @@ class WideVolumes {
         : lattice_(lattice),
           from_(odd(path.from)),
           to_(odd(path.to)),
+          ray_(path.ray),
           corner_{odd(corners[0]), odd(corners[1]), odd(corners[2])} {}
 
-    [[nodiscard]] Accumulator from_side() const { return volume(corner_[0], corner_[1], corner_[2], from_); }
-    [[nodiscard]] Accumulator to_side() const { return volume(corner_[0], corner_[1], corner_[2], to_); }
+    [[nodiscard]] Accumulator from_side() const {
+        Accumulator sum(lattice_, 3);
+        add_volume(corner_[0], corner_[1], corner_[2], from_, false, sum);
+        return sum;
+    }
+    [[nodiscard]] Accumulator to_side() const {
+        Accumulator sum(lattice_, 3);
+        if (ray_) add_volume(corner_[0], corner_[1], corner_[2], from_, false, sum);
+        add_volume(corner_[0], corner_[1], corner_[2], to_, ray_, sum);
+        return sum;
+    }
     [[nodiscard]] Accumulator weight(int k) const {
-        return volume(from_, corner_[(k + 2) % 3], corner_[(k + 1) % 3], to_);
+        Accumulator sum(lattice_, 3);
+        add_volume(from_, corner_[(k + 2) % 3], corner_[(k + 1) % 3], to_, ray_, sum);
+        return sum;
     }
 
     [[nodiscard]] int normal_shift() const {
@@ -86,6 +100,7 @@ class WideVolumes {
             const std::size_t j = (k + 2) % 3;
             Accumulator sum(lattice_, 2);
             for (const bool minus : {false, true}) {
+                if (minus && ray_) continue;
                 const OddPoint& p = minus ? from_ : to_;
                 sum.add(minus, p[i], head[j]);
                 sum.add(!minus, p[i], tail[j]);
@@ -111,28 +126,29 @@ class WideVolumes {
     }
 
   private:
-    // (b - a) x (c - a) . (x - a) is minus the determinant of the rows (p, 1), p = a, b, c, x. By Laplace along two
-    // pairs of columns, x y and z 1: for each pair of rows i < j with the others k < l, (-1)^(i+j+1) (x_i y_j - x_j
-    // y_i) (z_k - z_l).
-    [[nodiscard]] Accumulator volume(const OddPoint& a, const OddPoint& b, const OddPoint& c, const OddPoint& x) const {
-        Accumulator sum(lattice_, 3);
-        const auto rows = [&sum](bool minus, const OddPoint& i, const OddPoint& j, const OddPoint& k,
-                                 const OddPoint& l) {
-            sum.add(minus, i[0], j[1], k[2], l[2]);
-            sum.add(!minus, j[0], i[1], k[2], l[2]);
+    // Adds (b - a) x (c - a) . (x - a), which is minus the determinant of the rows (p, 1), p = a, b, c, x; for a
+    // direction x, (b - a) x (c - a) . x, its row is (x, 0). By Laplace along two pairs of columns, x y and z w: for each
+    // pair of rows i < j with the others k < l, (-1)^(i+j+1) (x_i y_j - x_j y_i) (z_k w_l - z_l w_k). x is always the
+    // last row of its pair.
+    static void add_volume(const OddPoint& a, const OddPoint& b, const OddPoint& c, const OddPoint& x, bool direction,
+                           Accumulator& sum) {
+        const auto rows = [&sum](bool minus, const OddPoint& i, const OddPoint& j, const Odd& k, const Odd& l) {
+            sum.add(minus, i[0], j[1], k, l);
+            sum.add(!minus, j[0], i[1], k, l);
         };
-        rows(true, a, b, c, x);
-        rows(false, a, c, b, x);
-        rows(true, a, x, b, c);
-        rows(true, b, c, a, x);
-        rows(false, b, x, a, c);
-        rows(true, c, x, a, b);
-        return sum;
+        const Odd zero(0);
+        rows(true, a, b, direction ? zero : c[2], x[2]);
+        rows(false, a, c, direction ? zero : b[2], x[2]);
+        rows(true, a, x, b[2], c[2]);
+        rows(true, b, c, direction ? zero : a[2], x[2]);
+        rows(false, b, x, a[2], c[2]);
+        rows(true, c, x, a[2], b[2]);
     }
 
     Lattice lattice_;
     OddPoint from_;
-    OddPoint to_;
+    OddPoint to_;  ///< of a ray, the way
+    bool ray_;
     OddPoint corner_[3];
 };
 

@@ -2,7 +2,7 @@
 // derivation for both, and one set of volumes for the filter's decision and for all values of a hit.
 //
 // Moller and Trumbore's determinants (1997), relative to corner a. Edges p = b - a and q = c - a, start o = a - from,
-// direction d = to - from, n = p x q, r = o x d. From o = t d - weight_b p - weight_c q by Cramer's rule:
+// direction d = to - from, of a ray what it is given, n = p x q, r = o x d. From o = t d - weight_b p - weight_c q by Cramer's rule:
 //   s = d . n,  v = o . n,  w_b = r . q,  w_c = -r . p,  w_a = s - w_b - w_c;  fraction v / s, weights w / s
 //   the start's side is that of -v, the end's that of s - v.
 // They come in pairs: n and r are (p | o) x (q | d), s and w_b are (d | q) . (n | r), v and -w_c are (o | p) . (n | r).
@@ -37,10 +37,14 @@ struct Meeting {
     Number vc;              ///< (v | -w_c)
 };
 
-/// What goes in: (b | a), (c | to), (a | from).
+/// What goes in: (b | a), (c | to), (a | from). `kept`: what of (a | from) is taken from (c | to), all bits of a lane or
+/// none: of a ray `to` is the direction itself.
 struct Lines {
     Triple<Pair> ba, ct, af;
+    PairMask kept;
 };
+
+[[nodiscard]] [[gnu::always_inline]] inline PairMask kept_of(bool ray) { return PairMask{-1, ray ? 0 : -1}; }
 
 [[nodiscard]] [[gnu::always_inline]] inline Pair swap_lanes(Pair x) { return swapped(x); }
 template <class Product>
@@ -57,8 +61,12 @@ template <class Number>
 [[gnu::always_inline]] inline void meet(const Lines& lines, Meeting<Number>& m) {
     using A = Arithmetic<Number>;
     const Triple<Pair>& a = lines.af;
+    const auto kept = [&lines](Pair x) __attribute__((always_inline)) {
+        return reinterpret_cast<Pair>(reinterpret_cast<PairMask>(x) & lines.kept);
+    };
     m.po = {A::difference(lines.ba.x, a.x), A::difference(lines.ba.y, a.y), A::difference(lines.ba.z, a.z)};
-    m.qd = {A::difference(lines.ct.x, a.x), A::difference(lines.ct.y, a.y), A::difference(lines.ct.z, a.z)};
+    m.qd = {A::difference(lines.ct.x, kept(a.x)), A::difference(lines.ct.y, kept(a.y)),
+            A::difference(lines.ct.z, kept(a.z))};
     m.nr = cross(m.po, m.qd);
     m.sb = dot(swapped(m.qd), m.nr);
     m.vc = dot(swapped(m.po), m.nr);

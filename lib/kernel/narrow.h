@@ -22,8 +22,8 @@ struct Row {
 template <class Scalar>
 struct NarrowKernels {
     /// Whether a path hits a triangle under `sides`, strictly or where volumes are certainly 0 (filter.h). Sets
-    /// `measured` in any case.
-    void (*filter)(Row<Scalar> row, const double* from, const double* to, Sides sides, Filtered& filtered,
+    /// `measured` in any case. `ray`: `to` is a direction.
+    void (*filter)(Row<Scalar> row, const double* from, const double* to, bool ray, Sides sides, Filtered& filtered,
                    Measured& measured);
     /// Values of a triangle that is hit, as good as double (for floats) or double-double gives them, and the first
     /// place to be tried for the point.

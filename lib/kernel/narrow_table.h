@@ -13,7 +13,7 @@ namespace {
 template <class Four, class Scalar>
 struct NarrowOf {
     [[gnu::always_inline]] static Pair pair(Scalar x, double y) { return Pair{static_cast<double>(x), y}; }
-    [[gnu::always_inline]] static void measure_row(Row<Scalar> row, const double* from, const double* to,
+    [[gnu::always_inline]] static void measure_row(Row<Scalar> row, const double* from, const double* to, bool ray,
                                                    Measured& measured) {
         const Scalar* x = row.first;
         const std::size_t n = row.stride;
@@ -22,13 +22,14 @@ struct NarrowOf {
         };
         measure_lines<Scalar>({{both_of(3, 0), both_of(4, 1), both_of(5, 2)},
                                {pair(x[6 * n], to[0]), pair(x[7 * n], to[1]), pair(x[8 * n], to[2])},
-                               {pair(x[0], from[0]), pair(x[n], from[1]), pair(x[2 * n], from[2])}},
+                               {pair(x[0], from[0]), pair(x[n], from[1]), pair(x[2 * n], from[2])},
+                               kept_of(ray)},
                               measured);
     }
 
-    static void filter_row(Row<Scalar> row, const double* from, const double* to, Sides sides, Filtered& filtered,
-                           Measured& measured) {
-        measure_row(row, from, to, measured);
+    static void filter_row(Row<Scalar> row, const double* from, const double* to, bool ray, Sides sides,
+                           Filtered& filtered, Measured& measured) {
+        measure_row(row, from, to, ray, measured);
         filter<Four>(measured, sides, filtered);
     }
 

@@ -13,9 +13,9 @@ namespace {
 /// `Flights`: what queries in flight enter nodes with.
 template <class Wide, class Flights, class Scalar>
 struct KernelsOf {
-    static bool make(const Frame& frame, const double* from, const double* to, bool front_only, bool back_only,
-                     Probe<Scalar>& probe) {
-        return set_probe<Wide>(frame, from, to, front_only, back_only, probe);
+    static bool make(const Frame& frame, const double* from, const double* to, bool ray, bool front_only,
+                     bool back_only, Probe<Scalar>& probe) {
+        return set_probe<Wide>(frame, from, to, ray, front_only, back_only, probe);
     }
     static void walk(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit,
                      void* self) {

@@ -34,7 +34,7 @@ struct OtherWays {
             const Path way{path.from, point};
             Any any(passed, own);
             return nearby->clear([&](TriangleRef triangle) {
-                test_triangle<Kernel>(scene, way, triangle, options, 1, counters, any);
+                test_triangle<Kernel>(scene, way, triangle, options, counters, any);
                 return any.found();
             });
         }
@@ -48,7 +48,7 @@ struct OtherWays {
             return true;
         }
         Any any(passed, own);
-        traverse<Kernel>(scene, Path{path.from, point}, options, 1, counters, any);
+        traverse<Kernel>(scene, Path{path.from, point}, options, counters, any);
         return !any.found();
     }
     [[nodiscard]] bool stops(const Point& point, Corners& corners, Decision& decision) const {
@@ -56,12 +56,12 @@ struct OtherWays {
         FirstOther<Scalar, Passed> first(scene, way, counters, passed, own);
         if (nearby != nullptr && nearby->knows(point)) {
             nearby->each([&](TriangleRef triangle) {
-                test_triangle<Kernel>(scene, way, triangle, options, 1, counters, first);
+                test_triangle<Kernel>(scene, way, triangle, options, counters, first);
             });
         } else if (list != nullptr && list->complete) {
             for (unsigned i = 0; i < list->count; ++i) test(way, i, first);
         } else {
-            traverse<Kernel>(scene, way, options, 1, counters, first);
+            traverse<Kernel>(scene, way, options, counters, first);
         }
         if (!first.found()) return false;
         corners = scene.corners(first.best().triangle);
@@ -79,7 +79,7 @@ struct OtherWays {
     }
     template <class Collector>
     void test(const Path& way, unsigned i, Collector& collector) const {
-        test_triangle<Kernel>(scene, way, list->triangles[i], options, 1, counters, collector);
+        test_triangle<Kernel>(scene, way, list->triangles[i], options, counters, collector);
     }
 };
 
@@ -93,9 +93,14 @@ void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candi
     Values values;
     Rounded<Scalar> rounded;
     Kernel::certify(scene, candidate, path, counters, values, rounded);
+    if (path.ray) {
+        const double parameter = to_parameter(path, values.weights[3]);
+        rounded.weights[3] =
+            static_cast<Scalar>(std::min(parameter, static_cast<double>(std::numeric_limits<Scalar>::max())));
+    }
     const std::uint32_t number = scene.number_of(triangle);
     report(rounded, candidate.decision, scene.face_of_number(number), number, hit);
-    // A limit that is nearer was meant for the caller's own segment: of ways it is 1.
+    // A limit that is nearer was meant for the caller's own path: ways have none.
     const OtherWays<Kernel, Scalar, Passed> ways{scene, path, triangle, passed, options, counters, list};
     const int tries =
         place(path, candidate.measured, candidate.decision, scene.grain, values, rounded, counters, ways, hit);

@@ -30,8 +30,9 @@ template <class Scalar>
     const ScalarKernels<Scalar>& kernels = scene.backend->template of<Scalar>();
     const bool front_only = sides == Sides::front;
     const bool back_only = sides == Sides::back;
-    if (!kernels.set_probe(scene.frame, path.from.data(), path.to.data(), front_only, back_only, probe)) return false;
-    up_to = parameter(probe, limit);
+    if (!kernels.set_probe(scene.frame, path.from.data(), path.to.data(), path.ray, front_only, back_only, probe))
+        return false;
+    up_to = parameter(probe, std::min(limit, path.end));
     return up_to >= 0;
 }
 

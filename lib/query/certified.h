@@ -3,6 +3,7 @@
 
 #include <kernel/finer_filter.h>
 #include <query/candidate.h>
+#include <query/parameter.h>
 #include <query/values.h>
 
 namespace pierce::detail {
@@ -27,7 +28,7 @@ template <class Scalar>
                            decision.feature,
                            decision.feature_index,
                            decision.at_start,
-                           measures.fraction,
+                           to_parameter(path, measures.fraction),
                            {w[0], w[1], w[2]}});
 }
 
@@ -39,8 +40,12 @@ struct Certified {
     static bool test(const Scene<Scalar>& scene, TriangleRef triangle, const Path& path, Sides sides, double limit,
                      QueryCounters& counters, Candidate& candidate) {
         candidate.triangle = triangle;
-        scene.narrow().filter(scene.row(triangle), path.from.data(), path.to.data(), sides, candidate,
+        scene.narrow().filter(scene.row(triangle), path.from.data(), path.to.data(), path.ray, sides, candidate,
                               candidate.measured);
+        if (path.wild) [[unlikely]] {
+            candidate.measured.tame = false;
+            static_cast<Filtered&>(candidate) = {Verdict::doubtful, {}, 0, 1};
+        }
         if (candidate.verdict == Verdict::miss || candidate.earliest > limit) return false;
         return candidate.verdict == Verdict::hit || decided(path, sides, candidate.measured, counters, candidate);
     }

@@ -86,6 +86,40 @@ int CollisionMesh<Scalar>::crossings(const Segment<Scalar>& segment, QueryCounte
 }
 
 template <class Scalar>
+std::optional<Hit<Scalar>> CollisionMesh<Scalar>::first_hit_of_ray(const Ray<Scalar>& ray,
+                                                                   const QueryOptions& options) const noexcept {
+    const StandardArithmetic standard;
+    Counters counters(options.counters);
+    if (!impl_->valid(ray) || !(options.max_fraction >= 0)) return std::nullopt;
+    return detail::first_hit(impl_->scene, ray, options, counters);
+}
+
+template <class Scalar>
+bool CollisionMesh<Scalar>::any_hit_of_ray(const Ray<Scalar>& ray, const QueryOptions& options) const noexcept {
+    const StandardArithmetic standard;
+    Counters counters(options.counters);
+    if (!impl_->valid(ray) || !(options.max_fraction >= 0)) return false;
+    return detail::any_hit(impl_->scene, ray, options, counters);
+}
+
+template <class Scalar>
+std::size_t CollisionMesh<Scalar>::all_hits_of_ray(const Ray<Scalar>& ray, std::span<Hit<Scalar>> out,
+                                                   const QueryOptions& options) const noexcept {
+    const StandardArithmetic standard;
+    Counters counters(options.counters);
+    if (!impl_->valid(ray) || !(options.max_fraction >= 0)) return 0;
+    return detail::all_hits(impl_->scene, ray, out, options, counters);
+}
+
+template <class Scalar>
+int CollisionMesh<Scalar>::crossings_of_ray(const Ray<Scalar>& ray, QueryCounters* given) const noexcept {
+    const StandardArithmetic standard;
+    Counters counters(given);
+    if (!impl_->valid(ray)) return 0;
+    return detail::crossings(impl_->scene, ray, counters);
+}
+
+template <class Scalar>
 int CollisionMesh<Scalar>::winding_number(const Vec3<Scalar>& point, QueryCounters* given) const noexcept {
     const StandardArithmetic standard;
     Counters counters(given);

@@ -23,6 +23,12 @@ struct CollisionMesh<Scalar>::Impl {
         invalid_queries.fetch_add(1, std::memory_order_relaxed);
         return false;
     }
+    bool valid(const Ray<Scalar>& ray) const {
+        if (!finite(ray.origin, ray.direction)) return false;
+        if (ray.limit >= 0) return true;
+        invalid_queries.fetch_add(1, std::memory_order_relaxed);
+        return false;
+    }
 };
 
 }  // namespace pierce

@@ -6,27 +6,47 @@
 
 #include <exact/crossing.h>
 #include <query/answer.h>
+#include <query/ray_path.h>
 
 namespace pierce::detail {
 
-template <class Scalar>
-std::optional<Hit<Scalar>> first_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
-                                     const QueryOptions& options, QueryCounters& counters) {
-    return first_answer<Certified, Scalar>(scene, to_path(segment), options, counters);
-}
+namespace {
 
 template <class Scalar>
-bool any_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
-             QueryCounters& counters) {
+bool set_path(const Scene<Scalar>&, const Segment<Scalar>& segment, double most, Path& path) {
+    path = to_path(segment, most);
+    return true;
+}
+template <class Scalar>
+bool set_path(const Scene<Scalar>& scene, const Ray<Scalar>& ray, double most, Path& path) {
+    return set_ray_path(scene.bounds, to_point(ray.origin), to_point(ray.direction), static_cast<double>(ray.limit),
+                        most, sizeof(Scalar) == sizeof(float), path);
+}
+
+}  // namespace
+
+template <class Scalar, class Way>
+std::optional<Hit<Scalar>> first_hit(const Scene<Scalar>& scene, const Way& way, const QueryOptions& options,
+                                     QueryCounters& counters) {
+    Path path;
+    if (!set_path(scene, way, options.max_fraction, path)) return std::nullopt;
+    return first_answer<Certified, Scalar>(scene, path, options, counters);
+}
+
+template <class Scalar, class Way>
+bool any_hit(const Scene<Scalar>& scene, const Way& way, const QueryOptions& options, QueryCounters& counters) {
+    Path path;
+    if (!set_path(scene, way, options.max_fraction, path)) return false;
     Any any(none_passed);
-    traverse<Certified>(scene, to_path(segment), options, counters, any);
+    traverse<Certified>(scene, path, options, counters, any);
     return any.found();
 }
 
-template <class Scalar>
-std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
+template <class Scalar, class Way>
+std::size_t all_hits(const Scene<Scalar>& scene, const Way& way, std::span<Hit<Scalar>> out,
                      const QueryOptions& options, QueryCounters& counters) {
-    const Path path = to_path(segment);
+    Path path;
+    if (!set_path(scene, way, options.max_fraction, path)) return 0;
     All<Scalar> all(scene, path, out, counters);
     traverse<Certified>(scene, path, options, counters, all);
     all.sort();
@@ -72,9 +92,9 @@ int crossings_of(const Scene<Scalar>& scene, const Path& path, QueryCounters& co
             Measured measured;
             measure_path<Scalar>(corners, path, measured);
             const Filtered filtered = filter_strictly(measured, Sides::both);
-            if (filtered.verdict == Verdict::hit) {
+            if (filtered.verdict == Verdict::hit && filtered.latest < path.end) {
                 sum += filtered.decision.side == Sides::front ? 1 : -1;
-            } else if (filtered.verdict == Verdict::doubtful) {
+            } else if (filtered.verdict != Verdict::miss) {
                 ++counters.exact_decisions;
                 sum += crossing(path, corners);
             }
@@ -114,9 +134,11 @@ int crossings_of(const Scene<Scalar>& scene, const Path& path, QueryCounters& co
 
 }  // namespace
 
-template <class Scalar>
-int crossings(const Scene<Scalar>& scene, const Segment<Scalar>& segment, QueryCounters& counters) {
-    return crossings_of(scene, to_path(segment), counters);
+template <class Scalar, class Way>
+int crossings(const Scene<Scalar>& scene, const Way& way, QueryCounters& counters) {
+    Path path;
+    if (!set_path(scene, way, std::numeric_limits<double>::infinity(), path)) return 0;
+    return crossings_of(scene, path, counters);
 }
 
 template <class Scalar>
@@ -130,19 +152,19 @@ int winding_number(const Scene<Scalar>& scene, const Vec3<Scalar>& at, QueryCoun
     return -crossings_of(scene, way_out(point, scene.bounds), counters);
 }
 
-template std::optional<Hit<float>> first_hit(const Scene<float>&, const Segment<float>&, const QueryOptions&,
-                                             QueryCounters&);
-template bool any_hit(const Scene<float>&, const Segment<float>&, const QueryOptions&, QueryCounters&);
-template std::size_t all_hits(const Scene<float>&, const Segment<float>&, std::span<Hit<float>>, const QueryOptions&,
-                              QueryCounters&);
-template int crossings(const Scene<float>&, const Segment<float>&, QueryCounters&);
+#define PIERCE_QUERIES(Scalar, Way)                                                                                 \
+    template std::optional<Hit<Scalar>> first_hit(const Scene<Scalar>&, const Way<Scalar>&, const QueryOptions&,    \
+                                                  QueryCounters&);                                                 \
+    template bool any_hit(const Scene<Scalar>&, const Way<Scalar>&, const QueryOptions&, QueryCounters&);          \
+    template std::size_t all_hits(const Scene<Scalar>&, const Way<Scalar>&, std::span<Hit<Scalar>>,                \
+                                  const QueryOptions&, QueryCounters&);                                            \
+    template int crossings(const Scene<Scalar>&, const Way<Scalar>&, QueryCounters&)
+PIERCE_QUERIES(float, Segment);
+PIERCE_QUERIES(float, Ray);
+PIERCE_QUERIES(double, Segment);
+PIERCE_QUERIES(double, Ray);
+#undef PIERCE_QUERIES
 template int winding_number(const Scene<float>&, const Vec3<float>&, QueryCounters&);
-template std::optional<Hit<double>> first_hit(const Scene<double>&, const Segment<double>&, const QueryOptions&,
-                                              QueryCounters&);
-template bool any_hit(const Scene<double>&, const Segment<double>&, const QueryOptions&, QueryCounters&);
-template std::size_t all_hits(const Scene<double>&, const Segment<double>&, std::span<Hit<double>>, const QueryOptions&,
-                              QueryCounters&);
-template int crossings(const Scene<double>&, const Segment<double>&, QueryCounters&);
 template int winding_number(const Scene<double>&, const Vec3<double>&, QueryCounters&);
 
 }  // namespace pierce::detail

@@ -10,16 +10,18 @@
 
 #include <pierce/explain.h>
 #include <pierce/hit.h>
+#include <pierce/ray.h>
 #include <query/scene.h>
 
 namespace pierce::detail {
 
-template <class Scalar>
-[[gnu::noinline]] std::optional<Hit<Scalar>> first_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
+// `Way`: a Segment or a Ray of Scalar.
+template <class Scalar, class Way>
+[[gnu::noinline]] std::optional<Hit<Scalar>> first_hit(const Scene<Scalar>& scene, const Way& way,
                                                        const QueryOptions& options, QueryCounters& counters);
 
-template <class Scalar>
-[[gnu::noinline]] bool any_hit(const Scene<Scalar>& scene, const Segment<Scalar>& segment, const QueryOptions& options,
+template <class Scalar, class Way>
+[[gnu::noinline]] bool any_hit(const Scene<Scalar>& scene, const Way& way, const QueryOptions& options,
                                QueryCounters& counters);
 
 /// The ends of many segments: number i is the three scalars at `from + i * from_stride`, and so on.
@@ -51,13 +53,12 @@ template <class Scalar>
                                        std::size_t last, std::uint8_t* out, const QueryOptions& options,
                                        QueryCounters& counters, std::size_t& invalid);
 
-template <class Scalar>
-[[gnu::noinline]] std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
-                                       std::span<Hit<Scalar>> out, const QueryOptions& options,
-                                       QueryCounters& counters);
+template <class Scalar, class Way>
+[[gnu::noinline]] std::size_t all_hits(const Scene<Scalar>& scene, const Way& way, std::span<Hit<Scalar>> out,
+                                       const QueryOptions& options, QueryCounters& counters);
 
-template <class Scalar>
-[[gnu::noinline]] int crossings(const Scene<Scalar>& scene, const Segment<Scalar>& segment, QueryCounters& counters);
+template <class Scalar, class Way>
+[[gnu::noinline]] int crossings(const Scene<Scalar>& scene, const Way& way, QueryCounters& counters);
 
 template <class Scalar>
 [[gnu::noinline]] int winding_number(const Scene<Scalar>& scene, const Vec3<Scalar>& point, QueryCounters& counters);

@@ -32,6 +32,7 @@ struct Batch {
             return false;
         }
         const auto at = static_cast<std::ptrdiff_t>(i);
+        path.most = options.max_fraction;
         for (std::size_t k = 0; k < 3; ++k) {
             path.from[k] = static_cast<double>(ends.from[at * ends.from_stride + static_cast<std::ptrdiff_t>(k)]);
             path.to[k] = static_cast<double>(ends.to[at * ends.to_stride + static_cast<std::ptrdiff_t>(k)]);
@@ -131,7 +132,7 @@ class InFlight {
             Path path;
             clear(out_[i]);
             if (!batch_.read_path(i, path)) continue;
-            if (!make_probe(batch_.scene, path, options.sides, std::min(1.0, options.max_fraction), probe, limit))
+            if (!make_probe(batch_.scene, path, options.sides, std::min(1.0, path.most), probe, limit))
                 continue;
             slot.query.emplace(batch_, path, out_[i]);
             slot.probe = &probe;
@@ -147,8 +148,8 @@ class InFlight {
         return slot.limit = use_cluster(batch_.scene, *slot.probe, cluster, lanes, slot.limit, batch_.counters,
                                         [&](ClusterRef which, unsigned bits) {
                                             return test_cluster<Certified>(batch_.scene, query.path, which, bits,
-                                                                           batch_.options, batch_.options.max_fraction,
-                                                                           batch_.counters, query.collector);
+                                                                           batch_.options, batch_.counters,
+                                                                           query.collector);
                                         });
     }
 

@@ -146,7 +146,8 @@ class Nearby {
         double whole = 0;
         double way = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double along = std::abs(path.to[k] / 2 - path.from[k] / 2);  // halves: no difference overflows
+            const double start = path.ray ? 0 : path.from[k];
+            const double along = std::abs(path.to[k] / 2 - start / 2);  // halves: no difference overflows
             if (along <= whole) continue;
             whole = along;
             way = std::abs(point[k] / 2 - path.from[k] / 2) + ways_.scene.near_bound;

@@ -32,6 +32,7 @@
 #include <query/grain.h>
 #include <query/half_spaces.h>
 #include <query/lattice_places.h>
+#include <query/parameter.h>
 #include <query/values.h>
 
 namespace pierce::detail {
@@ -63,7 +64,7 @@ class PlaceSearch {
         }
     }
 
-    /// Sets `fraction` and `point`; `below`: less than the true fraction. Returns how many points were not clear.
+    /// Sets `fraction` and `point`; `below`: less than the true fraction, as the caller's parameter. Returns how many points were not clear.
     int find(double below, Hit<Scalar>& hit) {
         if (!find_near(hit))
             find_back(below, hit);
@@ -266,7 +267,7 @@ template <class Scalar, class Ways>
                                    QueryCounters& counters, const Ways& ways, Hit<Scalar>& hit) {
     const Corners corners = corners_of(measured);
     PlaceSearch<Scalar, Ways> search(path, corners, of, values, counters, ways);
-    return search.find(fraction_below<Scalar>(values.weights[3]), hit);
+    return search.find(parameter_below(path, fraction_below<Scalar>(values.weights[3])), hit);
 }
 
 /// Sets `point` and `fraction` of a hit: the segment from -> point has no hit, none of the hit's own triangle, from
@@ -287,7 +288,7 @@ int place(const Path& path, const Measured& measured, const Decision& decision, 
     }
     const Point point{values.point[0], values.point[1], values.point[2]};
     if (values.tried == Tried::far && point != path.from && ways.clear(point, true)) [[likely]] {
-        hit.fraction = rounded_down<Scalar>(fraction_below<Scalar>(values.weights[3]));
+        hit.fraction = rounded_down<Scalar>(parameter_below(path, fraction_below<Scalar>(values.weights[3])));
         std::memcpy(hit.point.data(), rounded.point, sizeof hit.point);
         return 0;
     }

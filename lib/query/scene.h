@@ -96,6 +96,7 @@ struct Scene {
 [[nodiscard]] inline Box box_of(const Path& path) {
     Box box{};
     for (std::size_t k = 0; k < 3; ++k) {
+        // (A ray's end is not a number as a rule, and is not asked for.)
         box.low[k] = std::min(path.from[k], path.to[k]);
         box.high[k] = std::max(path.from[k], path.to[k]);
     }

@@ -26,7 +26,7 @@ struct Trusting {
     static bool test(const Scene<Scalar>& scene, TriangleRef triangle, const Path& path, Sides sides, double limit,
                      QueryCounters&, Candidate& candidate) {
         candidate.triangle = triangle;
-        twin_of<Scalar>(scene).filter(scene.row(triangle), path.from.data(), path.to.data(), sides, candidate,
+        twin_of<Scalar>(scene).filter(scene.row(triangle), path.from.data(), path.to.data(), path.ray, sides, candidate,
                                       candidate.measured);
         return candidate.verdict == Verdict::hit &&
                candidate.earliest < limit;  // so no two are ever left to the exact order
@@ -169,7 +169,7 @@ void answer_until(const Scene<Scalar>& scene, const Path& path, const std::vecto
                   const QueryOptions& options, QueryCounters& counters, Hit<Scalar>& hit) {
     First<Scalar> first(scene, path, counters);
     for (const TriangleRef triangle : triangles) {
-        test_triangle<Certified>(scene, path, triangle, options, 1, counters, first);
+        test_triangle<Certified>(scene, path, triangle, options, counters, first);
         first.seen(triangle);
     }
     const Candidate& best = first.best();

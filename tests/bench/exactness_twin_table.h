@@ -11,9 +11,9 @@ template <class Four, class Scalar>
 struct TrustingOf {
     using Exact = NarrowOf<Four, Scalar>;
 
-    static void filter(Row<Scalar> row, const double* from, const double* to, Sides sides, Filtered& filtered,
+    static void filter(Row<Scalar> row, const double* from, const double* to, bool ray, Sides sides, Filtered& filtered,
                        Measured& x) {
-        Exact::measure_row(row, from, to, x);
+        Exact::measure_row(row, from, to, ray, x);
         filtered.verdict = Verdict::miss;
         const double end = x.v() - x.s();
         const bool front = sides != Sides::back && x.v() <= 0 && end > 0;

@@ -141,7 +141,7 @@ class Judge {
     /// What the kernels leave up to a fraction of the segment.
     unsigned left(const Path& path, Sides sides, double fraction) {
         Probe<Scalar> probe;
-        if (!kernels_.set_probe(frame_, path.from.data(), path.to.data(), sides == Sides::front, sides == Sides::back,
+        if (!kernels_.set_probe(frame_, path.from.data(), path.to.data(), path.ray, sides == Sides::front, sides == Sides::back,
                                 probe))
             return 0;
         const float limit = parameter(probe, fraction);

@@ -180,8 +180,8 @@ std::string difference(const NarrowKernels<Scalar>& one, const NarrowKernels<Sca
     Filtered y{};
     Measured of_x;
     Measured of_y;
-    one.filter(row, pair.path.from.data(), pair.path.to.data(), sides, x, of_x);
-    two.filter(row, pair.path.from.data(), pair.path.to.data(), sides, y, of_y);
+    one.filter(row, pair.path.from.data(), pair.path.to.data(), pair.path.ray, sides, x, of_x);
+    two.filter(row, pair.path.from.data(), pair.path.to.data(), pair.path.ray, sides, y, of_y);
     if (x.verdict != y.verdict || x.decision.hit != y.decision.hit || x.decision.at_start != y.decision.at_start)
         return "verdict";
     if (x.verdict != Verdict::miss && (x.earliest != y.earliest || x.latest != y.latest)) return "interval";

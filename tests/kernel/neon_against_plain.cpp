@@ -36,8 +36,8 @@ struct Probes {
         }
         const bool front = engine() % 3 == 0;
         const bool back = !front && engine() % 2 == 0;
-        one = k_neon.of<Scalar>().set_probe(frame, from, to, front, back, neon);
-        other = k_plain.of<Scalar>().set_probe(frame, from, to, front, back, plain);
+        one = k_neon.of<Scalar>().set_probe(frame, from, to, false, front, back, neon);
+        other = k_plain.of<Scalar>().set_probe(frame, from, to, false, front, back, plain);
     }
     bool one;
     bool other;

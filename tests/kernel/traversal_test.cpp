@@ -136,7 +136,7 @@ void expect_complete(const ScalarKernels<Scalar>& kernels, const World<Scalar>& 
     const std::size_t count = world.boxes.size();
     Asked<Scalar> asked{std::vector<int>(count + 1), nullptr, &world, &path, 0, nearest};
     Probe<Scalar> probe;
-    if (kernels.set_probe(world.frame, path.from.data(), path.to.data(), false, false, probe)) {
+    if (kernels.set_probe(world.frame, path.from.data(), path.to.data(), path.ray, false, false, probe)) {
         asked.probe = &probe;
         asked.limit = parameter(probe, 1);
         // As a first hit would be looked for: where the box is met nothing behind it counts any more.

@@ -159,7 +159,14 @@ struct Polycube {
     }
 
     /// Whether every cube that the point belongs to, or lies on the boundary of, is there.
-    [[nodiscard]] bool strictly_inside(const Vec3<double>& p) const {
+    [[nodiscard]] bool strictly_inside(const Vec3<double>& p) const { return cubes_around(p) == 8; }
+    /// Whether none is.
+    [[nodiscard]] bool strictly_outside(const Vec3<double>& p) const { return cubes_around(p) == 0; }
+
+  private:
+    // Of the eight octants around a point, how many begin in a cube.
+    [[nodiscard]] int cubes_around(const Vec3<double>& p) const {
+        int count = 0;
         for (int corner = 0; corner < 8; ++corner) {
             std::array<int, 3> cell{};
             for (int k = 0; k < 3; ++k) {
@@ -167,11 +174,12 @@ struct Polycube {
                 const bool below = (corner >> k & 1) != 0;
                 cell[static_cast<std::size_t>(k)] = static_cast<int>(below ? std::ceil(x) - 1 : std::floor(x));
             }
-            if (!cube.contains(cell)) return false;
+            count += cube.contains(cell) ? 1 : 0;
         }
-        return true;
+        return count;
     }
 
+  public:
     int size;
     double edge;
     std::set<std::array<int, 3>> cube;

@@ -1,0 +1,210 @@
+// Rays against an oracle of exact rationals: directions that no segment can express, limits from the least number to
+// infinity and on faces, in all sizes of numbers; and particles that fly by rays and must stay inside.
+//
+// A ray used to be a segment to origin + limit * direction, which rounds: at a limit of 1e9 mesh sizes the end of a float
+// ray is off by tens of mesh sizes, and a ray aimed at a vertex by way of a direction missed it.
+#include <gtest/gtest.h>
+
+#include <pierce/pierce.h>
+#include <support/meshes.h>
+#include <support/random.h>
+#include <support/ray_oracle.h>
+
+namespace pierce::test {
+namespace {
+
+template <class Scalar>
+struct Question {
+    Ray<Scalar> ray;
+    QueryOptions options;
+};
+
+template <class Scalar>
+class RaySource {
+  public:
+    RaySource(const TriangleSoup<Scalar>& soup, double size, Random& random)
+        : soup_(soup), size_(size), random_(random) {}
+
+    Question<Scalar> question() {
+        Question<Scalar> asked;
+        Ray<Scalar>& ray = asked.ray;
+        ray.origin = origin();
+        ray.direction = direction(ray.origin);
+        ray.limit = limit(ray);
+        asked.options.sides = std::array{Sides::front, Sides::back, Sides::both}[random_.below(3)];
+        if (random_.chance(0.1)) asked.options.max_fraction = static_cast<double>(limit(ray));
+        return asked;
+    }
+
+  private:
+    using V = Vec3<Scalar>;
+    static Scalar rounded(double x) { return static_cast<Scalar>(x); }
+
+    V lattice_point() {
+        V p;
+        for (int k = 0; k < 3; ++k) p[k] = rounded(size_ * random_.between_ints(-3, 3));
+        return p;
+    }
+    V some_vertex() { return soup_.positions[random_.below(soup_.positions.size())]; }
+
+    V origin() {
+        switch (random_.below(6)) {
+            case 0:
+                return some_vertex();
+            case 1:
+                return lattice_point();
+            case 2:  // far away
+                return (size_ * std::ldexp(1.0, random_.between_ints(3, 40)) * random_.in_cube()).template cast<Scalar>();
+            case 3:  // in a face
+                return ((some_vertex() + some_vertex()) / 2).eval();
+            default:
+                return (4 * size_ * random_.in_cube()).template cast<Scalar>();
+        }
+    }
+
+    V direction(const V& from) {
+        V d;
+        switch (random_.below(5)) {
+            case 0:  // at a vertex, as exactly as a difference is
+                d = some_vertex() - from;
+                break;
+            case 1:
+                for (int k = 0; k < 3; ++k) d[k] = rounded(random_.between_ints(-2, 2));
+                break;
+            case 2:  // in the plane of a face, or along an edge
+                d = some_vertex() - some_vertex();
+                break;
+            default:
+                d = random_.direction().template cast<Scalar>();
+        }
+        // Of all sizes.
+        constexpr int k_range = std::numeric_limits<Scalar>::max_exponent - 10;
+        if (random_.chance(0.5)) d = d * std::ldexp(Scalar(1), random_.between_ints(-k_range / 2, k_range / 2));
+        if (random_.chance(0.1)) d = d * std::ldexp(Scalar(1), random_.between_ints(-k_range / 2, k_range / 2));
+        if (random_.chance(0.1)) d[static_cast<int>(random_.below(3))] = std::numeric_limits<Scalar>::denorm_min();
+        if (random_.chance(0.1)) d[static_cast<int>(random_.below(3))] *= std::ldexp(Scalar(1), -k_range / 2);
+        return d.allFinite() ? d : V(1, 0, 0);
+    }
+
+    // Some of them where a component is that of a vertex, and beside these.
+    Scalar limit(const Ray<Scalar>& ray) {
+        constexpr Scalar k_infinite = std::numeric_limits<Scalar>::infinity();
+        if (random_.chance(0.4)) return k_infinite;
+        if (random_.chance(0.1)) return std::ldexp(Scalar(1), random_.between_ints(-1000, 1000));
+        const int k = static_cast<int>(random_.below(3));
+        Scalar t = std::abs((some_vertex()[k] - ray.origin[k]) / ray.direction[k]);
+        if (std::isnan(t)) return 1;
+        if (random_.chance(0.3)) t = std::nextafter(t, random_.chance(0.5) ? k_infinite : Scalar(0));
+        return random_.chance(0.2) ? t * rounded(random_.between(0.5, 2)) : t;
+    }
+
+    const TriangleSoup<Scalar>& soup_;
+    double size_;
+    Random& random_;
+};
+
+/// A few triangles in one place: some on a lattice, with vertices in common, some anywhere.
+template <class Scalar>
+TriangleSoup<Scalar> handful(double size, Random& random) {
+    TriangleSoup<Scalar> soup;
+    const auto some = [&]() -> Vec3<double> {
+        if (random.chance(0.3)) return 3 * size * random.in_cube();
+        Vec3<double> p;
+        for (int k = 0; k < 3; ++k) p[k] = size * random.between_ints(-2, 2);
+        return p;
+    };
+    for (int i = 0; i < 12; ++i) add_triangle(soup, some(), some(), some());
+    return soup;
+}
+
+template <class Scalar>
+bool within_an_ulp(Scalar value, const mpq_class& exact) {
+    if (value == std::numeric_limits<Scalar>::max()) return exact >= static_cast<double>(value);
+    const auto next = [&](Scalar to) { return mpq_class(static_cast<double>(std::nextafter(value, to))); };
+    if (next(0) <= exact && (std::isinf(std::nextafter(value, INFINITY)) || exact <= next(INFINITY))) return true;
+    return value == 0 && exact <= static_cast<double>(std::numeric_limits<Scalar>::denorm_min());
+}
+
+/// Returns the number of decisions; what is wrong is a failure.
+template <class Scalar>
+std::size_t judge(std::size_t rounds, std::size_t count_each, std::uint64_t seed) {
+    Random random(seed);
+    std::size_t decisions = 0;
+    std::size_t hits = 0;
+    for (std::size_t round = 0; round < rounds; ++round) {
+        constexpr int k_range = sizeof(Scalar) == 4 ? 60 : 300;
+        const int exponent = random.chance(0.5) ? 0 : random.between_ints(-k_range, k_range);
+        const double size = std::ldexp(random.chance(0.5) ? 1 : random.between(1, 2), exponent);
+        const TriangleSoup<Scalar> soup = handful<Scalar>(size, random);
+        const CollisionMesh<Scalar> mesh(soup.view());
+        RaySource<Scalar> source(soup, size, random);
+        for (std::size_t i = 0; i < count_each; ++i) {
+            const Question<Scalar> asked = source.question();
+            const RayOracle<Scalar> oracle(asked.ray);
+            std::vector<std::pair<RayMeeting, std::uint32_t>> expected;
+            int crossings = 0;
+            for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+                const auto [a, b, c] = soup.triangles[t];
+                const RayMeeting meeting = oracle.meet({soup.positions[a], soup.positions[b], soup.positions[c]},
+                                                       asked.options.sides);
+                crossings += meeting.crossing;
+                ++decisions;
+                if (meeting.hit && (std::isinf(asked.options.max_fraction) ||
+                                    meeting.parameter <= asked.options.max_fraction))
+                    expected.emplace_back(meeting, t);
+            }
+            std::stable_sort(expected.begin(), expected.end(),
+                             [](const auto& x, const auto& y) { return x.first.parameter < y.first.parameter; });
+            const auto said = [&] {
+                std::ostringstream text;
+                text << std::hexfloat << "round " << round << " ray " << i << " origin " << asked.ray.origin.transpose()
+                     << " direction " << asked.ray.direction.transpose() << " limit " << asked.ray.limit << " most "
+                     << asked.options.max_fraction << " sides " << int(asked.options.sides);
+                return text.str();
+            };
+            std::array<Hit<Scalar>, 16> all;
+            const std::size_t count = mesh.all_hits(asked.ray, all, asked.options);
+            const auto first = mesh.first_hit(asked.ray, asked.options);
+            EXPECT_EQ(mesh.crossings(asked.ray), crossings) << said();
+            EXPECT_EQ(mesh.any_hit(asked.ray, asked.options), !expected.empty()) << said();
+            EXPECT_EQ(first.has_value(), !expected.empty()) << said();
+            EXPECT_EQ(count, expected.size()) << said();
+            if (count != expected.size() || first.has_value() != !expected.empty()) return decisions;
+            for (std::size_t h = 0; h < count; ++h) {
+                const auto& [meeting, triangle] = expected[h];
+                const Hit<Scalar>& hit = all[h];
+                EXPECT_EQ(hit.triangle, triangle) << said();
+                EXPECT_EQ(hit.side, meeting.side) << said();
+                EXPECT_EQ(hit.feature, meeting.feature) << said();
+                EXPECT_EQ(hit.feature_index, meeting.feature_index) << said();
+                EXPECT_EQ(hit.at_start, meeting.at_start) << said();
+                EXPECT_TRUE(within_an_ulp(hit.exact_fraction, meeting.parameter))
+                    << said() << ' ' << hit.exact_fraction << " for " << meeting.parameter.get_d();
+                EXPECT_TRUE(mpq_class(static_cast<double>(hit.fraction)) <= meeting.parameter) << said();
+            }
+            if (!first) continue;
+            ++hits;
+            EXPECT_EQ(first->triangle, expected[0].second) << said();
+            EXPECT_FALSE(mesh.any_hit({asked.ray.origin, first->point}, {.sides = asked.options.sides})) << said();
+            if (::testing::Test::HasFailure()) return decisions;
+        }
+    }
+    EXPECT_GT(hits, rounds * count_each / 20);
+    return decisions;
+}
+
+template <class Scalar>
+class Rays : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(Rays, Scalars, );
+
+TYPED_TEST(Rays, are_decided_exactly) { judge<TypeParam>(200, 50, 91); }
+
+template <class Scalar>
+class RaysSoak : public ::testing::Test {};
+TYPED_TEST_SUITE(RaysSoak, Scalars, );
+
+TYPED_TEST(RaysSoak, ten_million_decisions) { EXPECT_GE(judge<TypeParam>(10000, 50, 92), std::size_t{5'000'000}); }
+
+}  // namespace
+}  // namespace pierce::test
