@@ -6,6 +6,7 @@
 
 #include <pierce/pierce.h>
 #include <support/expect_hit.h>
+#include <support/meshes.h>
 #include <support/naive.h>
 #include <support/random.h>
 
@@ -59,6 +60,35 @@ TEST(FarEnds, are_as_good_as_near_ones) {
             }
         }
     EXPECT_GT(hits, 1500);
+}
+
+// Both ends far away: from 2^30 mesh sizes on boxes used to be told apart less and less well, as the point where the
+// segment enters the box was computed in double, and from 2^46 on everything was visited.
+TEST(FarEnds, both_ends_cost_what_the_part_in_the_box_costs) {
+    const TriangleSoup<double> soup = bumpy_sphere(40);
+    const CollisionMesh<double> mesh(soup.view());
+    Random random(72);
+    for (int exponent = 4; exponent <= 46; exponent += 6) {
+        QueryCounters far;
+        QueryCounters near;
+        QueryCounters of_rays;
+        for (int i = 0; i < 200; ++i) {
+            // Through points near the middle, within what doubles that far away are apart.
+            const V d = std::ldexp(1.0, exponent) * random.direction();
+            const V by = 0.5 * random.in_cube();
+            const V from = by - d;
+            const V to = by + random.between(1, 3) * d;
+            const auto hit = mesh.first_hit({from, to}, {.counters = &far});
+            const V in = -2 * d.normalized() + by;
+            const V out = 2 * d.normalized() + by;
+            ASSERT_EQ(mesh.first_hit({in, out}, {.counters = &near}).has_value(), hit.has_value());
+            ASSERT_EQ(mesh.first_hit(Ray<double>{from, d}, {.counters = &of_rays}).has_value(), hit.has_value());
+        }
+        EXPECT_LE(far.nodes, near.nodes * 2) << exponent;
+        EXPECT_LE(far.clusters, near.clusters * 2) << exponent;
+        EXPECT_LE(of_rays.nodes, near.nodes * 2) << exponent;
+        EXPECT_LE(of_rays.clusters, near.clusters * 2) << exponent;
+    }
 }
 
 }  // namespace
