@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <pierce/explain.h>
+#include <pierce/export.h>
 #include <pierce/hit.h>
 #include <pierce/mesh_report.h>
 #include <pierce/mesh_view.h>
@@ -47,7 +48,7 @@ using Points = Eigen::Ref<const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>, 0, Eig
 /// numbers go; where both are further from the mesh than some 10^9 times its size, boxes are told apart less and less
 /// well, and queries get slower.
 template <class Scalar>
-class CollisionMesh {
+class PIERCE_EXPORT CollisionMesh {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
 
   public:
@@ -162,7 +163,7 @@ class CollisionMesh {
     std::unique_ptr<Impl> impl_;
 };
 
-extern template class CollisionMesh<float>;
-extern template class CollisionMesh<double>;
+extern template class PIERCE_EXPORT CollisionMesh<float>;
+extern template class PIERCE_EXPORT CollisionMesh<double>;
 
 }  // namespace pierce

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include <pierce/export.h>
 #include <pierce/types.h>
 
 namespace pierce {
@@ -32,6 +33,6 @@ struct FaceVerdict {
 };
 
 /// A few words for people.
-[[nodiscard]] std::string_view to_string(Reason reason);
+[[nodiscard]] PIERCE_EXPORT std::string_view to_string(Reason reason);
 
 }  // namespace pierce

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <pierce/export.h>
+
 namespace pierce {
 
 /// Vertices with equal coordinates count as one here, whatever their numbers: that is how queries see them. Triangles
@@ -37,7 +39,7 @@ struct MeshReport {
     [[nodiscard]] bool closed() const { return border_edges == 0 && misoriented_edges == 0; }
 
     /// A few lines for people.
-    [[nodiscard]] std::string to_string() const;
+    [[nodiscard]] PIERCE_EXPORT std::string to_string() const;
 };
 
 }  // namespace pierce

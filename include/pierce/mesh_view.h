@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 
+#include <pierce/mesh_error.h>
 #include <pierce/types.h>
 
 namespace pierce {
@@ -26,13 +26,6 @@ struct MeshView {
     [[nodiscard]] std::uint32_t face_of(std::size_t triangle) const {
         return faces.empty() ? static_cast<std::uint32_t>(triangle) : faces[triangle];
     }
-};
-
-/// A mesh, or a mesh file, that can't be used. `what()` is one line that names the file and its line or byte, or the
-/// vertex or face, and the reason.
-class MeshError : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
 };
 
 }  // namespace pierce

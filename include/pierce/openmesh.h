@@ -1,5 +1,6 @@
 // OpenMesh triangle meshes: their faces for a `CollisionMesh`, the handles that a hit stands for, and a half-edge mesh
-// made of a soup. Header only; needs OpenMeshCore. Of a point type it uses only `vector_traits` and `[]`.
+// made of a soup. Needs OpenMeshCore. Of a point type it uses only `vector_traits` and `[]`. Compiles with -fno-exceptions
+// and -fno-rtti, but OpenMesh's own meshes (9.0) need both, exceptions and type information.
 #pragma once
 
 #include <array>
@@ -88,7 +89,7 @@ To exact_coordinate(From value, std::size_t vertex, char axis) {
     text.precision(std::numeric_limits<From>::max_digits10);
     text << "vertex " << vertex << ": its " << axis << " coordinate, " << value << ", is not exactly representable in "
          << (std::is_same_v<To, double> ? "double" : std::is_same_v<To, float> ? "float" : "the type of the mesh");
-    throw MeshError(text.str());
+    throw_mesh_error(text.str());
 }
 
 template <class Mesh>
@@ -198,13 +199,13 @@ TriangleSoup<OpenMeshScalar<Mesh>> from_openmesh(const Mesh& mesh) {
         const OpenMesh::FaceHandle face(static_cast<int>(i));
         if (openmesh_detail::is_deleted(mesh, face)) continue;
         if (!openmesh_detail::is_triangle(mesh, face))
-            throw MeshError("face " + std::to_string(i) + " is not a triangle");
+            throw_mesh_error("face " + std::to_string(i) + " is not a triangle");
         IndexTriple triple{};
         for (std::size_t k = 0; const OpenMesh::VertexHandle corner : openmesh_detail::corners(mesh, face)) {
             triple[k++] = static_cast<std::uint32_t>(corner.idx());
             if (openmesh_detail::is_deleted(mesh, corner))
-                throw MeshError("face " + std::to_string(i) + ": its vertex " + std::to_string(corner.idx()) +
-                                " is deleted");
+                throw_mesh_error("face " + std::to_string(i) + ": its vertex " + std::to_string(corner.idx()) +
+                                 " is deleted");
         }
         soup.triangles.push_back(triple);
         soup.faces.push_back(static_cast<std::uint32_t>(i));
@@ -216,11 +217,11 @@ TriangleSoup<OpenMeshScalar<Mesh>> from_openmesh(const Mesh& mesh) {
 template <class Scalar, class Mesh>
 OpenMeshFaces to_openmesh(const TriangleSoup<Scalar>& soup, Mesh& mesh) {
     openmesh_detail::require_triangle_mesh<Mesh>();
-    if (mesh.n_vertices() != 0) throw MeshError("the mesh to be filled is not empty");
+    if (mesh.n_vertices() != 0) throw_mesh_error("the mesh to be filled is not empty");
     for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
         for (const std::uint32_t index : soup.triangles[t]) {
             if (index >= soup.positions.size())
-                throw MeshError("triangle " + std::to_string(t) + ": there is no vertex " + std::to_string(index));
+                throw_mesh_error("triangle " + std::to_string(t) + ": there is no vertex " + std::to_string(index));
         }
     }
     using Coordinate = typename Mesh::Scalar;

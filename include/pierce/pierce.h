@@ -12,8 +12,10 @@
 
 #include <pierce/collision_mesh.h>
 #include <pierce/hit.h>
+#include <pierce/mesh_error.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
 #include <pierce/ray.h>
 #include <pierce/triangle_soup.h>
 #include <pierce/types.h>
+#include <pierce/version.h>

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include <pierce/export.h>
 #include <pierce/mesh_view.h>
 
 namespace pierce {
@@ -35,9 +36,9 @@ struct TriangleSoup {
 /// than three corners, or no face at all. Nothing is skipped. Memory is linear in the size of the file, whatever counts
 /// its header claims, and so is time but for concave polygons of many corners (n log n as a rule, quadratic at worst).
 template <class Scalar>
-[[nodiscard]] TriangleSoup<Scalar> read_mesh(const std::filesystem::path& path);
+[[nodiscard]] PIERCE_EXPORT TriangleSoup<Scalar> read_mesh(const std::filesystem::path& path);
 
-extern template TriangleSoup<float> read_mesh<float>(const std::filesystem::path&);
-extern template TriangleSoup<double> read_mesh<double>(const std::filesystem::path&);
+extern template PIERCE_EXPORT TriangleSoup<float> read_mesh<float>(const std::filesystem::path&);
+extern template PIERCE_EXPORT TriangleSoup<double> read_mesh<double>(const std::filesystem::path&);
 
 }  // namespace pierce

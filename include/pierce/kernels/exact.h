@@ -1,6 +1,7 @@
 // The library's own answer for one triangle: decided as in exact arithmetic, with values rounded once.
 #pragma once
 
+#include <pierce/export.h>
 #include <pierce/kernels/concept.h>
 
 namespace pierce::kernels {
@@ -20,10 +21,12 @@ struct Exact {
         return {triple<Scalar>(a), triple<Scalar>(b), triple<Scalar>(c)};
     }
 
-    [[nodiscard]] std::optional<Answer<float>> test(const Vertices<float>& stored, const Vec3<float>& from,
-                                                    const Vec3<float>& to) const noexcept;
-    [[nodiscard]] std::optional<Answer<double>> test(const Vertices<double>& stored, const Vec3<double>& from,
-                                                     const Vec3<double>& to) const noexcept;
+    [[nodiscard]] PIERCE_EXPORT std::optional<Answer<float>> test(const Vertices<float>& stored,
+                                                                  const Vec3<float>& from,
+                                                                  const Vec3<float>& to) const noexcept;
+    [[nodiscard]] PIERCE_EXPORT std::optional<Answer<double>> test(const Vertices<double>& stored,
+                                                                   const Vec3<double>& from,
+                                                                   const Vec3<double>& to) const noexcept;
 };
 
 inline constexpr Exact exact{};

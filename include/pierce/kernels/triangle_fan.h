@@ -67,7 +67,7 @@ struct TriangleFan {
     /// which nothing hits.
     template <class Scalar>
     [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& apex, std::span<const Vec3<Scalar>> ring) const {
-        if (ring.size() < 2) throw MeshError("a fan needs at least one triangle");
+        if (ring.size() < 2) throw_mesh_error("a fan needs at least one triangle");
         if (ring.size() == 2) return prepare<Scalar>(apex, ring[0], ring[1]);
         const Triple<Scalar> a = triple<Scalar>(apex);
         const std::size_t last = ring.size() - 2;
@@ -77,8 +77,8 @@ struct TriangleFan {
         for (std::size_t k = 0; k <= last; ++k) {
             const auto basis = fan_basis<Scalar>(triple<Scalar>(ring[k]) - a, triple<Scalar>(ring[k + 1]) - a);
             if (!basis)
-                throw MeshError("fan triangle " + std::to_string(k) +
-                                " has no area, or one that can't be computed with");
+                throw_mesh_error("fan triangle " + std::to_string(k) +
+                                 " has no area, or one that can't be computed with");
             if (!before) stored.first = fan_first(*basis, a);
             else stored.turns.push_back(fan_turn(*before, *basis, k == last));
             before = basis;

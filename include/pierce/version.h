@@ -1,0 +1,23 @@
+// The version of these headers. CMakeLists.txt reads it here, so that there is only one.
+#pragma once
+
+#include <string_view>
+
+#define PIERCE_VERSION_MAJOR 0
+#define PIERCE_VERSION_MINOR 1
+#define PIERCE_VERSION_PATCH 0
+
+/// One number to compare with: 1.2.3 is 10203.
+#define PIERCE_VERSION (PIERCE_VERSION_MAJOR * 10000 + PIERCE_VERSION_MINOR * 100 + PIERCE_VERSION_PATCH)
+
+// A macro's value as text takes two steps.
+#define PIERCE_TEXT_OF(value) #value
+#define PIERCE_TEXT(value) PIERCE_TEXT_OF(value)
+
+namespace pierce {
+
+/// "major.minor.patch".
+inline constexpr std::string_view version = PIERCE_TEXT(PIERCE_VERSION_MAJOR) "." PIERCE_TEXT(
+    PIERCE_VERSION_MINOR) "." PIERCE_TEXT(PIERCE_VERSION_PATCH);
+
+}  // namespace pierce
