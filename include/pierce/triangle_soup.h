@@ -26,8 +26,8 @@ struct TriangleSoup {
     /// has are listed as well.
     std::vector<std::string> materials = {};
     std::vector<std::string> groups = {};
-    /// For each face of the file the place of its name in `materials` and `groups`, or `k_no_name`. Empty, or
-    /// `face_count()` long. The number to look up is that of a face, as a hit reports it, not that of a triangle.
+    /// For each face of the file the place of its name in `materials` and `groups`, or `k_no_name`: what a hit hits is
+    /// `materials[material_of_face[hit.face]]`. Empty, or `face_count()` long; triangle i belongs to face `faces[i]`.
     std::vector<std::uint32_t> material_of_face = {};
     std::vector<std::uint32_t> group_of_face = {};
 
@@ -38,8 +38,8 @@ struct TriangleSoup {
     }
 };
 
-/// What `read_mesh` keeps beside the surface. Nothing unless asked: queries need none of it, and each takes four bytes a
-/// face.
+/// What `read_mesh` keeps beside the surface. Nothing unless asked: queries need none of it, and each takes four bytes
+/// a face.
 struct ReadOptions {
     bool materials = false;  ///< fill `TriangleSoup::materials` and `material_of_face`
     bool groups = false;     ///< fill `TriangleSoup::groups` and `group_of_face`
@@ -51,19 +51,20 @@ struct ReadOptions {
 /// coordinates are equal.
 ///
 /// Throws `MeshError`, one line that names the file, the line or byte, and the reason, when the file can't be opened,
-/// is packed or cut short, holds an index out of range, a coordinate that is not finite or does not fit `Scalar`, a face of fewer
-/// than three corners, or no face at all. Nothing is skipped. Memory is linear in the size of the file, whatever counts
-/// its header claims, and so is time but for concave polygons of many corners (n log n as a rule, quadratic at worst).
+/// is packed or cut short, holds an index out of range, a coordinate that is not finite or does not fit `Scalar`, a
+/// face of fewer than three corners, or no face at all. No vertex and no face is skipped. Memory is linear in the size
+/// of the file, whatever counts its header claims, and so is time but for concave polygons of many corners (n log n as
+/// a rule, quadratic at worst).
 ///
-/// PLY's triangle strips (element `tristrips`) become faces: each three indices in succession are one. Those that repeat
-/// an index, with which a strip jumps to another place, are kept as faces of zero area, which nothing hits.
+/// PLY's triangle strips (element `tristrips`) become faces: each three indices in succession are one. Those that
+/// repeat an index, with which a strip jumps to another place, are kept as faces of zero area, which nothing hits.
 ///
 /// Materials are what OBJ says with `usemtl`. Groups are the solids of a text STL, and what OBJ says with `g` and `o`:
-/// the last one of either kind before a face counts. OFF, PLY and binary STL have neither. A name is the text behind its
-/// keyword, without the blanks around it and without a comment, byte for byte: `g hull deck` is one name. A name that
-/// comes again has the same number. A keyword without a name ends the one before; a face that comes before the first
-/// has none. Texture coordinates, normals, colours and smoothing groups are left out, and the files that `mtllib` names
-/// are not opened.
+/// the last one of either kind before a face counts. OFF, PLY and binary STL have neither. A name is the text behind
+/// its keyword, without the blanks around it and without a comment, byte for byte: `g hull deck` is one name. A name
+/// that comes again has the same number. A keyword without a name ends the one before; a face that comes before the
+/// first has none. Texture coordinates, normals, colours and smoothing groups are left out, and the files that `mtllib`
+/// names are not opened.
 template <class Scalar>
 [[nodiscard]] TriangleSoup<Scalar> read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 

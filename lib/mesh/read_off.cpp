@@ -129,8 +129,8 @@ class OffReader {
         }
     }
 
-    /// What stands behind the position is what the keyword says. Behind a plain OFF many programs write a colour all the
-    /// same: whether one does is seen at the first vertex, and holds for all.
+    /// What stands behind the position is what the keyword says. Behind a plain OFF many programs write a colour all
+    /// the same: whether one does is seen at the first vertex, and holds for all.
     void vertex() {
         const VertexLine<Scalar> line = read_vertex_line<Scalar>(text_);
         const bool tells_colour = is_plain_ && soup_.vertex_count() == 0;

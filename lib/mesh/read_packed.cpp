@@ -10,8 +10,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// gzip: RFC 1952, section 2.3.1. Zip: APPNOTE 4.3.7 and 4.3.16, for an archive without files. xz: its file format, 2.1.1.1.
-// Zstandard: RFC 8878, section 3.1.1. bzip2 has a digit behind these three. 7-Zip: 7zFormat.txt.
+// gzip: RFC 1952, section 2.3.1. Zip: APPNOTE 4.3.7 and 4.3.16, for an archive without files. xz: its file format,
+// 2.1.1.1. Zstandard: RFC 8878, section 3.1.1. bzip2 has a digit behind these three. 7-Zip: 7zFormat.txt.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> k_kinds = {{
     {"\x1F\x8B"sv, "a gzip file"sv},
     {"PK\3\4"sv, "a zip archive"sv},

@@ -40,7 +40,8 @@ class VertexFans {
                 look_at_duplicates(vertex, around, report);
             }
         }
-        // Where the lower of its vertices has a closed fan, an edge has two triangles, and none of these was counted yet.
+        // Where the lower of its vertices has a closed fan, an edge has two triangles, and none of these was counted
+        // yet.
         report.edges_with[2] += (3 * count_ - counted_sides_) / 2;
         return std::move(border_);
     }

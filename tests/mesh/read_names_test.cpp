@@ -1,6 +1,8 @@
 // What a game needs of each face beside its place: its material and its group. They were dropped, and nothing said so.
 #include "read_test_support.h"
 
+#include <pierce/collision_mesh.h>
+
 namespace pierce {
 namespace {
 
@@ -39,6 +41,18 @@ TEST(ReadNames, ObjHasMaterialsAndGroups) {
     EXPECT_EQ(mesh.material_of_face, (Numbers{k_no_name, 0, 1, 1, 0}));
     EXPECT_EQ(mesh.group_of_face, (Numbers{k_no_name, 0, 0, 1, 1}));
     test::expect_valid(mesh);
+}
+
+TEST(ReadNames, AreLookedUpByTheFaceOfAHit) {
+    // The wall is the file's second face, and its third triangle.
+    const auto soup =
+        read_all("obj", k_square + "v 0 0 9\nv 1 0 9\nv 1 1 9\nusemtl wood\nf 1 2 3 4\nusemtl stone\nf 5 6 7\n");
+    const CollisionMesh<double> mesh(soup.view());
+    const auto wall = mesh.first_hit({{0.5, 0.25, 10}, {0.5, 0.25, -1}});
+    const auto floor = mesh.first_hit({{0.25, 0.5, 10}, {0.25, 0.5, -1}});
+    ASSERT_TRUE(wall && floor);
+    EXPECT_EQ(soup.materials.at(soup.material_of_face.at(wall->face)), "stone");
+    EXPECT_EQ(soup.materials.at(soup.material_of_face.at(floor->face)), "wood");
 }
 
 TEST(ReadNames, AreKeptOnlyWhenAskedFor) {

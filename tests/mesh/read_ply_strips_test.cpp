@@ -1,5 +1,5 @@
-// PLY's triangle strips, in which the Stanford 3D scanning repository has its meshes: one row of indices with -1 between
-// the strips. They were refused.
+// PLY's triangle strips, in which the Stanford 3D scanning repository has its meshes: one row of indices with -1
+// between the strips. They were refused.
 #include "read_test_support.h"
 
 namespace pierce {

@@ -74,8 +74,8 @@ TEST(MeshReport, names_a_turned_face_a_third_wing_and_a_double) {
 }
 
 TEST(MeshReport, counts_the_triangles_of_each_edge) {
-    // Walls that meet in a pillar are as they should be, and none of them is a fault to be found: half a sphere's worth of
-    // wings around one edge, of each number, far apart from one another.
+    // Walls that meet in a pillar are as they should be, and none of them is a fault to be found: half a sphere's worth
+    // of wings around one edge, of each number, far apart from one another.
     TriangleSoup<double> soup;
     for (std::uint32_t wings = 1; wings <= 11; ++wings) {
         const auto low = static_cast<std::uint32_t>(soup.positions.size());
