@@ -145,9 +145,10 @@ class PIERCE_EXPORT CollisionMesh {
                                                    const QueryOptions& options = {}) const;
 
     /// What is odd about the mesh, and whether it can keep particles in. Computed anew by each call, on one thread.
-    /// On a closed mesh in about the time of a build (n log n for n triangles around one vertex). Each border edge
-    /// takes the logarithm of the number of border vertices, and more where it passes close to many: as long as the
-    /// mesh, about the cube root of their number, the square root if all lie in a plane, at worst all of them.
+    /// On a closed mesh in about the time of a build, at most three times that (n log n for n triangles around one
+    /// vertex). Each border edge takes the logarithm of the number of border vertices, and more where it passes close
+    /// to many: as long as the mesh, about the cube root of their number, the square root if all lie in a plane, at
+    /// worst all of them.
     [[nodiscard]] MeshReport mesh_report() const;
 
     [[nodiscard]] MeshStatistics statistics() const noexcept;

@@ -15,6 +15,7 @@ namespace pierce {
 /// of area zero are counted, and left out of the rest. Lists hold the first `k_examples` cases.
 struct MeshReport {
     static constexpr std::size_t k_examples = 8;
+    static constexpr std::size_t k_most_around_edge = 8;
     using Edge = std::array<std::uint32_t, 2>;  ///< numbers of positions
 
     std::size_t zero_area = 0;              ///< triangles: they are never hit
@@ -25,6 +26,11 @@ struct MeshReport {
     std::size_t non_manifold_vertices = 0;  ///< vertices whose triangles fall into several fans that share no edge
     std::size_t t_junctions = 0;            ///< border vertices in the middle of a border edge, or within rounding
     std::size_t components = 0;             ///< sets of triangles joined by edges
+    /// `edges_with[n]`: edges that n triangles share; the last place counts those with `k_most_around_edge` and more,
+    /// the place 0 is 0. A manifold without borders has edges in place 2 only. Where walls meet, or cells share their
+    /// faces, edges with three and more are as they should be. `closed()` allows them if as many triangles follow the
+    /// edge one way as the other, so never with an odd number.
+    std::array<std::size_t, k_most_around_edge + 1> edges_with{};
 
     std::vector<std::uint32_t> zero_area_triangles;
     std::vector<std::uint32_t> duplicate_triangles;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include <chunks.h>
+#include <mesh/read_source.h>
 
 namespace pierce::detail {
 
@@ -58,9 +59,7 @@ void check_mesh(const MeshView<Scalar>& mesh, const Executor& executor) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
         for (const std::uint32_t corner : mesh.triangles[i])
             if (corner >= mesh.positions.size())
-                throw MeshError("face " + std::to_string(mesh.face_of(i)) + " (triangle " + std::to_string(i) +
-                                "): corner " + std::to_string(corner) + " is out of range: there are " +
-                                std::to_string(mesh.positions.size()) + " vertices");
+                throw MeshError(index_out_of_range(mesh.face_of(i), std::to_string(corner), mesh.positions.size(), ""));
 }
 
 template void check_mesh(const MeshView<float>&, const Executor&);

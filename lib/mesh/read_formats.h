@@ -10,21 +10,21 @@
 namespace pierce::detail {
 
 template <class Scalar>
-[[nodiscard]] [[gnu::noinline]] TriangleSoup<Scalar> read_obj(const SourceFile& file);
+[[nodiscard]] [[gnu::noinline]] TriangleSoup<Scalar> read_obj(const SourceFile& file, const ReadOptions& options);
 template <class Scalar>
-[[nodiscard]] [[gnu::noinline]] TriangleSoup<Scalar> read_off(const SourceFile& file);
+[[nodiscard]] [[gnu::noinline]] TriangleSoup<Scalar> read_off(const SourceFile& file, const ReadOptions& options);
 template <class Scalar>
-[[nodiscard]] [[gnu::noinline]] TriangleSoup<Scalar> read_ply(const SourceFile& file);
+[[nodiscard]] [[gnu::noinline]] TriangleSoup<Scalar> read_ply(const SourceFile& file, const ReadOptions& options);
 template <class Scalar>
-[[nodiscard]] [[gnu::noinline]] TriangleSoup<Scalar> read_stl(const SourceFile& file);
+[[nodiscard]] [[gnu::noinline]] TriangleSoup<Scalar> read_stl(const SourceFile& file, const ReadOptions& options);
 
-extern template TriangleSoup<float> read_obj<float>(const SourceFile&);
-extern template TriangleSoup<double> read_obj<double>(const SourceFile&);
-extern template TriangleSoup<float> read_off<float>(const SourceFile&);
-extern template TriangleSoup<double> read_off<double>(const SourceFile&);
-extern template TriangleSoup<float> read_ply<float>(const SourceFile&);
-extern template TriangleSoup<double> read_ply<double>(const SourceFile&);
-extern template TriangleSoup<float> read_stl<float>(const SourceFile&);
-extern template TriangleSoup<double> read_stl<double>(const SourceFile&);
+extern template TriangleSoup<float> read_obj<float>(const SourceFile&, const ReadOptions&);
+extern template TriangleSoup<double> read_obj<double>(const SourceFile&, const ReadOptions&);
+extern template TriangleSoup<float> read_off<float>(const SourceFile&, const ReadOptions&);
+extern template TriangleSoup<double> read_off<double>(const SourceFile&, const ReadOptions&);
+extern template TriangleSoup<float> read_ply<float>(const SourceFile&, const ReadOptions&);
+extern template TriangleSoup<double> read_ply<double>(const SourceFile&, const ReadOptions&);
+extern template TriangleSoup<float> read_stl<float>(const SourceFile&, const ReadOptions&);
+extern template TriangleSoup<double> read_stl<double>(const SourceFile&, const ReadOptions&);
 
 }  // namespace pierce::detail

@@ -6,6 +6,7 @@
 
 #include "environment.h"
 #include "mesh/read_formats.h"
+#include "mesh/read_packed.h"
 #include "mesh/read_source.h"
 
 namespace pierce {
@@ -21,26 +22,27 @@ std::string ending_of(const std::filesystem::path& path) {
 }  // namespace
 
 template <class Scalar>
-TriangleSoup<Scalar> read_mesh(const std::filesystem::path& path) {
+TriangleSoup<Scalar> read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
     const detail::SourceFile file(path);
     const std::string ending = ending_of(path);
     const detail::StandardArithmetic standard;
+    if (ending == ".stl") {
+        return detail::read_stl<Scalar>(file, options);
+    }
+    detail::refuse_packed(file);
     if (ending == ".obj") {
-        return detail::read_obj<Scalar>(file);
+        return detail::read_obj<Scalar>(file, options);
     }
     if (ending == ".off") {
-        return detail::read_off<Scalar>(file);
+        return detail::read_off<Scalar>(file, options);
     }
     if (ending == ".ply") {
-        return detail::read_ply<Scalar>(file);
-    }
-    if (ending == ".stl") {
-        return detail::read_stl<Scalar>(file);
+        return detail::read_ply<Scalar>(file, options);
     }
     file.fail("the ending " + detail::quoted(ending) + " is not one of .obj, .off, .ply and .stl");
 }
 
-template TriangleSoup<float> read_mesh<float>(const std::filesystem::path&);
-template TriangleSoup<double> read_mesh<double>(const std::filesystem::path&);
+template TriangleSoup<float> read_mesh<float>(const std::filesystem::path&, const ReadOptions&);
+template TriangleSoup<double> read_mesh<double>(const std::filesystem::path&, const ReadOptions&);
 
 }  // namespace pierce

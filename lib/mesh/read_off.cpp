@@ -15,15 +15,14 @@ namespace {
 template <class Scalar>
 class OffReader {
   public:
-    explicit OffReader(const SourceFile& file) : text_(file, {.hash_comments = true}), soup_(file) {}
+    OffReader(const SourceFile& file, const ReadOptions& options)
+        : text_(file, {.hash_comments = true, .hash_behind_digits = true}), soup_(file, options) {}
 
     TriangleSoup<Scalar> read() {
         keyword();
         const std::uint64_t vertices = count("vertices");
         const std::uint64_t faces = count("faces");
-        if (!text_.at_end_of_line()) {
-            text_.integer("a number of edges");  // often wrong, and of no use
-        }
+        pass_edge_count();
         if (!text_.at_end_of_line()) {
             text_.fail("the line goes on behind the three counts");
         }
@@ -71,12 +70,13 @@ class OffReader {
             other_dimension = other_dimension || dimension;
             found = texture || normal || colour || dimension;
         }
-        if (!take("OFF") || !(rest.empty() || (rest[0] >= '0' && rest[0] <= '9'))) {
+        if (!take("OFF") || !(rest.empty() || (rest[0] >= '0' && rest[0] <= '9') || rest[0] == '#')) {
             text_.fail_at(first, "begins with " + quoted(text_.word_at(first)) + ", not with OFF");
         }
         if (other_dimension) {
             text_.fail_at(first, "only points of 3 numbers are read, not those of " + quoted(text_.word_at(first)));
         }
+        is_plain_ = extra_numbers_ == 0 && !has_colour_;
         text_.go_to(rest.data());
         if (text_.at_end_of_line()) {
             text_.next_line();
@@ -89,9 +89,28 @@ class OffReader {
 
     std::uint64_t count(const std::string& what) {
         if (text_.at_end_of_line()) {
-            text_.fail("the number of " + what + " is missing");
+            text_.next_line();
+            if (!text_.find_line()) {
+                text_.fail("the number of " + what + " is missing");
+            }
         }
         return not_negative("a number of " + what);
+    }
+
+    /// It is often wrong, of no use, and may be missing. A line with a single number is no vertex, so it is this one.
+    void pass_edge_count() {
+        if (text_.at_end_of_line()) {
+            const char* counts_end = text_.place();
+            text_.next_line();
+            text_.find_line();
+            const char* next = text_.place();
+            text_.word();
+            const bool is_alone = text_.place() != next && text_.at_end_of_line();
+            text_.go_to(is_alone ? next : counts_end);
+        }
+        if (!text_.at_end_of_line()) {
+            text_.integer("a number of edges");
+        }
     }
 
     std::uint64_t not_negative(const std::string& what) {
@@ -110,14 +129,21 @@ class OffReader {
         }
     }
 
+    /// What stands behind the position is what the keyword says. Behind a plain OFF many programs write a colour all
+    /// the same: whether one does is seen at the first vertex, and holds for all.
     void vertex() {
         const VertexLine<Scalar> line = read_vertex_line<Scalar>(text_);
+        const bool tells_colour = is_plain_ && soup_.vertex_count() == 0;
+        if (tells_colour && (line.numbers == 6 || line.numbers == 7)) {
+            extra_numbers_ = line.numbers - 3;
+        }
         const std::size_t least = 3 + extra_numbers_ + (has_colour_ ? 3 : 0);
         if (line.numbers != least && !(has_colour_ && line.numbers == least + 1)) {
-            const std::string expected =
-                std::to_string(least) + (has_colour_ ? " or " + std::to_string(least + 1) : "");
+            const std::string expected = tells_colour  ? "3, 6 or 7"
+                                         : has_colour_ ? std::to_string(least) + " or " + std::to_string(least + 1)
+                                                       : std::to_string(least);
             text_.fail("the vertex has " + counted(line.numbers, "number", "numbers") + ": " + expected +
-                       " are expected");
+                       " are expected" + (is_plain_ && !tells_colour ? ", as the first one has" : ""));
         }
         soup_.add_vertex(line.position);
         text_.next_line();
@@ -151,7 +177,8 @@ class OffReader {
         const char* first = text_.place();
         const std::int64_t index = text_.integer("a corner");
         if (index < 0 || static_cast<std::uint64_t>(index) >= soup_.vertex_count()) {
-            text_.fail_at(first, corner_out_of_range(text_.integer_at(first), soup_.vertex_count(), true));
+            text_.fail_at(first, index_out_of_range(soup_.face_count(), text_.integer_at(first), soup_.vertex_count(),
+                                                    ", counted from 0"));
         }
         return static_cast<std::uint32_t>(index);
     }
@@ -162,16 +189,17 @@ class OffReader {
     const char* counts_ = nullptr;  // where the counts stand
     std::size_t extra_numbers_ = 0;
     bool has_colour_ = false;
+    bool is_plain_ = false;  // the keyword names nothing behind the position
 };
 
 }  // namespace
 
 template <class Scalar>
-TriangleSoup<Scalar> read_off(const SourceFile& file) {
-    return OffReader<Scalar>(file).read();
+TriangleSoup<Scalar> read_off(const SourceFile& file, const ReadOptions& options) {
+    return OffReader<Scalar>(file, options).read();
 }
 
-template TriangleSoup<float> read_off<float>(const SourceFile&);
-template TriangleSoup<double> read_off<double>(const SourceFile&);
+template TriangleSoup<float> read_off<float>(const SourceFile&, const ReadOptions&);
+template TriangleSoup<double> read_off<double>(const SourceFile&, const ReadOptions&);
 
 }  // namespace pierce::detail

@@ -27,9 +27,10 @@ const PlyElement* find_element(const PlyHeader& header, std::string_view name) {
 /// Which elements and properties make the mesh.
 struct PlyMesh {
     const PlyElement* vertex = nullptr;
-    const PlyElement* face = nullptr;
+    const PlyElement* face = nullptr;  ///< none if there are only strips
     std::array<const PlyProperty*, 3> axes{};
-    const PlyProperty* corners = nullptr;
+    const PlyProperty* corners = nullptr;  ///< of faces
+    const PlyProperty* strips = nullptr;   ///< a list of corners in a row, with strips one behind another
 };
 
 void find_axes(PlyMesh& mesh, const SourceFile& file) {
@@ -45,48 +46,55 @@ void find_axes(PlyMesh& mesh, const SourceFile& file) {
     }
 }
 
-void find_corners(PlyMesh& mesh, const SourceFile& file) {
-    for (const PlyProperty& property : mesh.face->properties) {
+/// The list of corners in each row of the element.
+const PlyProperty* find_corners(const PlyElement& element, const SourceFile& file) {
+    const PlyProperty* corners = nullptr;
+    for (const PlyProperty& property : element.properties) {
         if ((property.name != "vertex_indices" && property.name != "vertex_index") || !property.count_type) {
             continue;
         }
-        if (mesh.corners != nullptr) {
-            file.fail_at_line(property.place, "element 'face' has two lists of corners");
+        if (corners != nullptr) {
+            file.fail_at_line(property.place, "element " + quoted(element.name) + " has two lists of corners");
         }
         if (property.type >= PlyType::float32) {
             file.fail_at_line(property.place, "corners can't be floating-point numbers");
         }
-        mesh.corners = &property;
+        corners = &property;
     }
-    if (mesh.corners == nullptr) {
-        file.fail_at_line(mesh.face->place, "element 'face' has no list 'vertex_indices'");
+    if (corners == nullptr) {
+        file.fail_at_line(element.place, "element " + quoted(element.name) + " has no list 'vertex_indices'");
     }
+    return corners;
 }
 
 PlyMesh find_mesh(const PlyHeader& header, const SourceFile& file) {
-    if (const PlyElement* strips = find_element(header, "tristrips"); strips != nullptr && strips->rows > 0) {
-        file.fail_at_line(strips->place, "triangle strips are not read");
-    }
-    PlyMesh mesh{find_element(header, "vertex"), find_element(header, "face"), {}, nullptr};
-    if (mesh.face == nullptr || mesh.face->rows == 0) {
+    const auto find_filled = [&](std::string_view name) {
+        const PlyElement* element = find_element(header, name);
+        return element != nullptr && element->rows > 0 ? element : nullptr;
+    };
+    const PlyElement* face = find_filled("face");
+    const PlyElement* strips = find_filled("tristrips");
+    if (face == nullptr && strips == nullptr) {
         file.fail("holds no face");
     }
+    PlyMesh mesh{find_element(header, "vertex"), face, {}, nullptr, nullptr};
     if (mesh.vertex == nullptr) {
-        file.fail_at_line(mesh.face->place, "there are faces, but no element 'vertex'");
+        file.fail_at_line((face != nullptr ? face : strips)->place, "there are faces, but no element 'vertex'");
     }
     find_axes(mesh, file);
-    find_corners(mesh, file);
+    mesh.corners = face != nullptr ? find_corners(*face, file) : nullptr;
+    mesh.strips = strips != nullptr ? find_corners(*strips, file) : nullptr;
     return mesh;
 }
 
 template <class Scalar, class Body>
 class PlyReader {
   public:
-    PlyReader(const PlyHeader& header, const PlyMesh& mesh, const SourceFile& file)
-        : header_(header), mesh_(mesh), body_(header, file), soup_(file) {}
+    PlyReader(const PlyHeader& header, const PlyMesh& mesh, const SourceFile& file, const ReadOptions& options)
+        : header_(header), mesh_(mesh), body_(header, file), soup_(file, options) {}
 
     TriangleSoup<Scalar> read() {
-        soup_.reserve(mesh_.vertex->rows, mesh_.face->rows);
+        soup_.reserve(mesh_.vertex->rows, mesh_.face != nullptr ? mesh_.face->rows : 0);
         for (const PlyElement& element : header_.elements) {
             // Without properties a row has no bytes, and the count may be anything.
             for (std::uint64_t row = 0; row < element.rows && !element.properties.empty(); ++row) {
@@ -104,6 +112,8 @@ class PlyReader {
         for (const PlyProperty& property : element.properties) {
             if (&property == mesh_.corners) {
                 face();
+            } else if (&property == mesh_.strips) {
+                strips();
             } else if (property.count_type) {
                 const std::uint64_t length = list_length(property);
                 body_.pass(property.type, length);
@@ -131,13 +141,53 @@ class PlyReader {
         corners_.clear();
         for (std::uint64_t i = 0; i < length; ++i) {
             const char* place = body_.place();
-            const std::int64_t corner = body_.integer(mesh_.corners->type);
-            if (corner < 0 || static_cast<std::uint64_t>(corner) >= mesh_.vertex->rows) {
-                body_.fail_at(place, corner_out_of_range(std::to_string(corner), mesh_.vertex->rows, true));
-            }
-            corners_.push_back(static_cast<std::uint32_t>(corner));
+            corners_.push_back(vertex_of(body_.integer(mesh_.corners->type), place));
         }
         soup_.add_face(corners_);
+    }
+
+    /// Strips of triangles, with a -1 between one and the next. Each corner from the third on makes a face with the two
+    /// before it, every other one turned round, so that all of a strip face the same way (Turk's `tristrips`, as in the
+    /// files of the Stanford 3D scanning repository). Nothing is dropped: a corner that is repeated, to turn or to jump
+    /// to another place, makes faces of zero area.
+    void strips() {
+        const std::uint64_t length = list_length(*mesh_.strips);
+        const char* first = body_.place();
+        std::array<std::uint32_t, 2> before{};
+        std::uint64_t corners = 0;
+        for (std::uint64_t i = 0; i < length; ++i) {
+            const char* place = body_.place();
+            const std::int64_t number = body_.integer(mesh_.strips->type);
+            if (number == -1) {
+                end_strip(corners, first);
+                first = body_.place();
+                corners = 0;
+                continue;
+            }
+            const std::uint32_t corner = vertex_of(number, place);
+            if (corners >= 2) {
+                const std::size_t turned = corners % 2;
+                soup_.add_face(std::array{before[turned], before[1 - turned], corner});
+            }
+            before = {before[1], corner};
+            ++corners;
+        }
+        end_strip(corners, first);
+    }
+
+    /// Nothing between two -1 is nothing to lose.
+    void end_strip(std::uint64_t corners, const char* first) {
+        if (corners == 1 || corners == 2) {
+            body_.fail_at(first, too_few_corners(corners, "strip"));
+        }
+    }
+
+    std::uint32_t vertex_of(std::int64_t corner, const char* place) {
+        if (corner < 0 || static_cast<std::uint64_t>(corner) >= mesh_.vertex->rows) {
+            body_.fail_at(place, index_out_of_range(soup_.face_count(), std::to_string(corner), mesh_.vertex->rows,
+                                                    ", counted from 0"));
+        }
+        return static_cast<std::uint32_t>(corner);
     }
 
     std::uint64_t list_length(const PlyProperty& list) {
@@ -159,17 +209,17 @@ class PlyReader {
 }  // namespace
 
 template <class Scalar>
-TriangleSoup<Scalar> read_ply(const SourceFile& file) {
+TriangleSoup<Scalar> read_ply(const SourceFile& file, const ReadOptions& options) {
     const PlyHeader header = read_ply_header(file);
     const PlyMesh mesh = find_mesh(header, file);
     check_sizes(header, mesh.corners, file);
     if (header.format == PlyFormat::text) {
-        return PlyReader<Scalar, PlyTextBody>(header, mesh, file).read();
+        return PlyReader<Scalar, PlyTextBody>(header, mesh, file, options).read();
     }
-    return PlyReader<Scalar, PlyBinaryBody>(header, mesh, file).read();
+    return PlyReader<Scalar, PlyBinaryBody>(header, mesh, file, options).read();
 }
 
-template TriangleSoup<float> read_ply<float>(const SourceFile&);
-template TriangleSoup<double> read_ply<double>(const SourceFile&);
+template TriangleSoup<float> read_ply<float>(const SourceFile&, const ReadOptions&);
+template TriangleSoup<double> read_ply<double>(const SourceFile&, const ReadOptions&);
 
 }  // namespace pierce::detail

@@ -11,7 +11,8 @@ namespace pierce::detail {
 
 template <class Scalar>
 void SoupBuilder<Scalar>::add_face(std::span<const std::uint32_t> corners) {
-    auto& [positions, triangles, faces] = soup_;
+    auto& triangles = soup_.triangles;
+    auto& faces = soup_.faces;
     const std::size_t cut = corners.size() - 2;
     if (triangles.size() + cut > most_) {
         fail_too_many("triangles");
@@ -25,6 +26,12 @@ void SoupBuilder<Scalar>::add_face(std::span<const std::uint32_t> corners) {
     }
     if (!polygons_.empty()) {
         faces.insert(faces.end(), cut, faces.empty() ? 0U : faces.back() + 1);
+    }
+    if (options_.materials) {
+        soup_.material_of_face.push_back(materials_.selected());
+    }
+    if (options_.groups) {
+        soup_.group_of_face.push_back(groups_.selected());
     }
     for (std::size_t i = 2; i < corners.size(); ++i) {
         triangles.push_back({corners[0], corners[i - 1], corners[i]});
@@ -40,6 +47,8 @@ TriangleSoup<Scalar> SoupBuilder<Scalar>::finish() {
     for (const Polygon& polygon : polygons_) {
         cutter.cut(std::span(soup_.triangles).subspan(polygon.first_triangle, polygon.triangles));
     }
+    soup_.materials = materials_.take_names();
+    soup_.groups = groups_.take_names();
     return std::move(soup_);
 }
 

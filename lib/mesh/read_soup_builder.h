@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <pierce/triangle_soup.h>
 
+#include "mesh/read_names.h"
 #include "mesh/read_source.h"
 
 namespace pierce::detail {
@@ -17,8 +19,8 @@ inline constexpr std::uint64_t k_most_vertices_or_triangles = 0xFFFF'FFFE;
 template <class Scalar>
 class SoupBuilder {
   public:
-    explicit SoupBuilder(const SourceFile& file, std::uint64_t most = k_most_vertices_or_triangles)
-        : file_(file), most_(most) {}
+    SoupBuilder(const SourceFile& file, const ReadOptions& options, std::uint64_t most = k_most_vertices_or_triangles)
+        : file_(file), options_(options), most_(most) {}
 
     /// Only a reader that has compared the counts with the size of the file may reserve.
     void reserve(std::uint64_t vertices, std::uint64_t faces) {
@@ -27,6 +29,8 @@ class SoupBuilder {
     }
 
     [[nodiscard]] std::uint64_t vertex_count() const { return soup_.positions.size(); }
+    /// Also the number of the next face.
+    [[nodiscard]] std::uint64_t face_count() const { return soup_.face_count(); }
     [[nodiscard]] const Vec3<Scalar>& position(std::uint32_t vertex) const { return soup_.positions[vertex]; }
 
     void add_vertex(const Vec3<Scalar>& position) {
@@ -34,6 +38,18 @@ class SoupBuilder {
             fail_too_many("vertices");
         }
         soup_.positions.push_back(position);
+    }
+
+    /// What the faces from here on are made of, and belong to; "" is nothing. Passed over unless it was asked for.
+    void set_material(std::string_view name) {
+        if (options_.materials) {
+            materials_.select(name);
+        }
+    }
+    void set_group(std::string_view name) {
+        if (options_.groups) {
+            groups_.select(name);
+        }
     }
 
     /// Adds one face of at least three corners. The corners may name vertices that come later, and must be in range by
@@ -54,9 +70,12 @@ class SoupBuilder {
     };
 
     const SourceFile& file_;
+    ReadOptions options_;
     std::uint64_t most_;
     TriangleSoup<Scalar> soup_;
     std::vector<Polygon> polygons_;
+    NameTable materials_;
+    NameTable groups_;
 };
 
 extern template class SoupBuilder<float>;

@@ -97,14 +97,15 @@ std::string counted(std::uint64_t count, std::string_view one, std::string_view 
     return (std::to_string(count) + " ").append(count == 1 ? one : many);
 }
 
-std::string too_few_corners(std::uint64_t corners) {
-    return "the face has " + counted(corners, "corner", "corners") + ": at least 3 are needed";
+std::string too_few_corners(std::uint64_t corners, std::string_view what) {
+    return std::string("the ").append(what) + " has " + counted(corners, "corner", "corners") +
+           ": at least 3 are needed";
 }
 
-std::string corner_out_of_range(std::string_view corner, std::uint64_t vertices, bool counted_from_0) {
-    const std::string there = vertices == 1 ? ": there is " : ": there are ";
-    return std::string("corner ").append(corner.substr(0, 40)) + " of the face is out of range" + there +
-           counted(vertices, "vertex", "vertices") + (counted_from_0 ? ", counted from 0" : "");
+std::string index_out_of_range(std::uint64_t face, std::string_view index, std::uint64_t vertices,
+                               std::string_view note) {
+    return ("face " + std::to_string(face) + ": vertex index ").append(index.substr(0, 40)) + " is out of range (" +
+           counted(vertices, "vertex", "vertices").append(note) + ")";
 }
 
 }  // namespace pierce::detail

@@ -43,9 +43,12 @@ class SourceFile {
 /// "1 vertex", "2 vertices".
 [[nodiscard]] std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
 
-/// The two things that can be wrong with a face, in the same words for every format. `counted_from_0` is added where a
-/// file numbers its vertices so, because "3 is out of range: there are 3" would puzzle.
-[[nodiscard]] std::string too_few_corners(std::uint64_t corners);
-[[nodiscard]] std::string corner_out_of_range(std::string_view corner, std::uint64_t vertices, bool counted_from_0);
+/// The two things that can be wrong with a face, in the same words for every format. `what` has the corners: a face, or
+/// a strip of them.
+[[nodiscard]] std::string too_few_corners(std::uint64_t corners, std::string_view what = "face");
+/// "face 7: vertex index 9 is out of range (3 vertices)". `note` follows the number of vertices: how a file counts them
+/// must be said where the index equals their number, because "3 is out of range (3 vertices)" would puzzle.
+[[nodiscard]] std::string index_out_of_range(std::uint64_t face, std::string_view index, std::uint64_t vertices,
+                                             std::string_view note);
 
 }  // namespace pierce::detail

@@ -7,6 +7,7 @@
 
 #include "mesh/read_bytes.h"
 #include "mesh/read_formats.h"
+#include "mesh/read_packed.h"
 #include "mesh/read_soup_builder.h"
 #include "mesh/read_text.h"
 #include "mesh/read_vertex_merger.h"
@@ -14,6 +15,7 @@
 namespace pierce::detail {
 namespace {
 
+constexpr std::string_view k_end = "end";
 constexpr std::size_t k_header_bytes = 80;
 constexpr std::size_t k_start_bytes = k_header_bytes + 4;  // with the count of facets
 constexpr std::size_t k_facet_bytes = 50;  // normal, three corners of three floats, 16 bits for free use
@@ -44,12 +46,13 @@ bool is_text(const SourceFile& file) {
 template <class Scalar>
 class StlReader {
   public:
-    explicit StlReader(const SourceFile& file) : file_(file), text_(file, {}), soup_(file), merger_(soup_) {}
+    StlReader(const SourceFile& file, const ReadOptions& options)
+        : file_(file), text_(file, {}), soup_(file, options), merger_(soup_) {}
 
     TriangleSoup<Scalar> read_text() {
         while (text_.find_line()) {
             expect("solid");
-            text_.next_line();  // the rest is a name
+            soup_.set_group(text_.rest_of_line());
             while (next_word_is("facet", "endsolid")) {
                 facet();
             }
@@ -59,6 +62,9 @@ class StlReader {
     }
 
     TriangleSoup<Scalar> read_binary() {
+        if (file_.size() < k_start_bytes || binary_size(file_) != file_.size()) {
+            refuse_packed(file_);
+        }
         if (file_.size() < k_start_bytes) {
             file_.fail_at_byte(file_.end(),
                                "the file ends inside the first " + std::to_string(k_start_bytes) + " bytes");
@@ -120,17 +126,24 @@ class StlReader {
         }
     }
 
-    /// True for the first of two words, false for the second; all others are refused.
+    /// True for the first of two words, false for the second; all others are refused. What ends a part is one word,
+    /// or two: `end loop`.
     bool next_word_is(std::string_view one, std::string_view other) {
         if (!text_.find_line()) {
             text_.fail("the file ends where " + either(one, other) + " is expected");
         }
         const char* first = text_.place();
         const std::string_view found = text_.word();
-        if (equals_ignoring_case(found, one)) {
+        const bool is_half = equals_ignoring_case(found, k_end);
+        const std::string_view half = is_half ? text_.word() : std::string_view();
+        const auto is = [&](std::string_view word) {
+            return is_half ? word.starts_with(k_end) && equals_ignoring_case(half, word.substr(k_end.size()))
+                           : equals_ignoring_case(found, word);
+        };
+        if (is(one)) {
             return true;
         }
-        if (!equals_ignoring_case(found, other)) {
+        if (!is(other)) {
             text_.refuse_word(first, either(one, other));
         }
         return false;
@@ -151,12 +164,12 @@ class StlReader {
 }  // namespace
 
 template <class Scalar>
-TriangleSoup<Scalar> read_stl(const SourceFile& file) {
-    StlReader<Scalar> reader(file);
+TriangleSoup<Scalar> read_stl(const SourceFile& file, const ReadOptions& options) {
+    StlReader<Scalar> reader(file, options);
     return is_text(file) ? reader.read_text() : reader.read_binary();
 }
 
-template TriangleSoup<float> read_stl<float>(const SourceFile&);
-template TriangleSoup<double> read_stl<double>(const SourceFile&);
+template TriangleSoup<float> read_stl<float>(const SourceFile&, const ReadOptions&);
+template TriangleSoup<double> read_stl<double>(const SourceFile&, const ReadOptions&);
 
 }  // namespace pierce::detail

@@ -16,8 +16,9 @@ namespace pierce::detail {
 
 /// What differs between the text formats below the level of words.
 struct TextRules {
-    bool hash_comments = false;    ///< a word that begins with '#' ends the line
-    bool continued_lines = false;  ///< a backslash before a line end joins the next line on
+    bool hash_comments = false;       ///< a word that begins with '#' ends the line
+    bool hash_behind_digits = false;  ///< and so does a '#' right behind the last digit of a number
+    bool continued_lines = false;     ///< a backslash before a line end joins the next line on
 };
 
 class TextCursor {
@@ -65,6 +66,17 @@ class TextCursor {
         return found;
     }
 
+    /// What is left of this line, less the blanks around it. It may hold what would begin a comment elsewhere.
+    std::string_view rest_of_line() {
+        at_end_of_line();
+        const char* first = at_;
+        const char* last = at_;
+        for (; !is_line_end(*at_); ++at_) {
+            last = *at_ == ' ' || *at_ == '\t' ? last : at_ + 1;
+        }
+        return {first, static_cast<std::size_t>(last - first)};
+    }
+
     /// A finite number, correctly rounded from its decimals in a single step.
     template <class Scalar>
     Scalar coordinate() {
@@ -90,7 +102,7 @@ class TextCursor {
         at_ += *first == '-' || *first == '+' ? 1 : 0;
         const char* digits = at_;
         std::int64_t size = 0;
-        for (; *at_ >= '0' && *at_ <= '9'; ++at_) {
+        for (; is_digit(*at_); ++at_) {
             size = size < huge / 10 ? 10 * size + (*at_ - '0') : huge;
         }
         if (at_ == digits) {
@@ -101,7 +113,7 @@ class TextCursor {
     std::int64_t integer(std::string_view what) {
         const char* first = at_;
         const std::int64_t value = leading_integer(what);
-        if (!ends_word(at_)) {
+        if (!ends_number(at_)) {
             refuse_word(first, what);
         }
         return value;
@@ -132,6 +144,11 @@ class TextCursor {
     bool joins_lines(const char* at) const { return *at == '\\' && rules_.continued_lines && is_line_end(at[1]); }
     // A '#' ends no word: "1.#INF", which some programs write, must not be read as 1 and a comment.
     bool ends_word(const char* at) const { return *at == ' ' || *at == '\t' || is_line_end(*at) || joins_lines(at); }
+    // `at` is behind at least one character of the number. "1.#INF" is none, here as everywhere.
+    bool ends_number(const char* at) const {
+        return ends_word(at) || (*at == '#' && rules_.hash_behind_digits && is_digit(at[-1]));
+    }
+    static bool is_digit(char c) { return c >= '0' && c <= '9'; }
     const char* after_line_end(const char* at) const {
         at += *at == '\r' && at != end_ && at[1] == '\n' ? 1 : 0;
         return at < end_ ? at + 1 : end_;
@@ -143,7 +160,7 @@ class TextCursor {
         const char* first = at_ + (*at_ == '+' ? 1 : 0);
         const bool one_sign = first == at_ || (*first != '-' && *first > ' ');
         const auto [after, error] = fast_float::from_chars(first, end_, value);
-        if (error == std::errc::invalid_argument || !one_sign || !ends_word(after)) {
+        if (error == std::errc::invalid_argument || !one_sign || !ends_number(after)) {
             refuse_word(at_, "a number");
         }
         return after;

@@ -50,6 +50,12 @@ std::string MeshReport::to_string() const {
     line(duplicates, "duplicate triangles", duplicate_triangles, number);
     line(border_edges, "border edges", border_edge_list, edge);
     line(non_manifold_edges, "edges of more than two triangles", non_manifold_edge_list, edge);
+    if (non_manifold_edges > 0) {
+        out << "  edges by their number of triangles:";
+        for (std::size_t n = 1; n <= k_most_around_edge; ++n)
+            if (edges_with[n] > 0) out << "  " << n << (n == k_most_around_edge ? " or more: " : ": ") << edges_with[n];
+        out << '\n';
+    }
     line(misoriented_edges, "edges whose triangles do not face the same way", misoriented_edge_list, edge);
     line(non_manifold_vertices, "vertices where several fans touch", non_manifold_vertex_list, number);
     line(t_junctions, "T-junctions, vertices", t_junction_list, number);

@@ -40,6 +40,9 @@ class VertexFans {
                 look_at_duplicates(vertex, around, report);
             }
         }
+        // Where the lower of its vertices has a closed fan, an edge has two triangles, and none of these was counted
+        // yet.
+        report.edges_with[2] += (3 * count_ - counted_sides_) / 2;
         return std::move(border_);
     }
 
@@ -124,6 +127,8 @@ class VertexFans {
         } else if (balance != 0) {
             note(report.misoriented_edges, report.misoriented_edge_list, edge);
         }
+        ++report.edges_with[std::min(count, MeshReport::k_most_around_edge)];
+        counted_sides_ += count;
         if (count > 2) note(report.non_manifold_edges, report.non_manifold_edge_list, edge);
     }
 
@@ -145,7 +150,8 @@ class VertexFans {
     }
 
     std::span<const IndexTriple> triangles_;
-    std::size_t count_ = 0;  ///< of triangles, but those left out
+    std::size_t count_ = 0;          ///< of triangles, but those left out
+    std::size_t counted_sides_ = 0;  ///< of triangles, at edges that were looked at
     std::vector<std::size_t> ends_;
     RawArray<std::uint32_t> around_;
     Sets components_;  ///< of triangles

@@ -300,5 +300,20 @@ if [ -c /dev/full ]; then
     [ $? -eq 2 ] && [ "$(cat err)" = "cast: can't write to standard output" ] || fail "$(cat err)"
 fi
 
+# What the report says of a mesh that is closed but for its faces' sides: it was "not closed: 0 border edges".
+tetrahedron='v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n'
+printf '%bf 2 4 3\n' "$tetrahedron" >turned.obj
+run_ok turned.obj --random 1
+contains out 'not closed: 3 edges whose triangles do not face the same way'
+lacks out 'border'
+printf '%bf 2 3 4\n' "$tetrahedron" >whole.obj
+run_ok whole.obj --random 1
+contains out '4 vertices; closed'
+# And of one that nothing can hit: it was "closed".
+printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >flat.obj
+run_ok flat.obj --random 1
+contains out '3 vertices; empty'
+lacks out 'closed'
+
 [ "$failures" -eq 0 ] || { echo "$failures checks failed"; exit 1; }
 echo "all as expected"

@@ -16,7 +16,7 @@ template <class Scalar>
 bool read_or_refuse(const std::string& ending, const std::string& bytes, std::size_t* triangles = nullptr) {
     const test::TempFile file(ending, bytes);
     try {
-        const auto mesh = read_mesh<Scalar>(file.path());
+        const auto mesh = read_mesh<Scalar>(file.path(), {.materials = true, .groups = true});
         test::expect_valid(mesh);
         if (triangles != nullptr) {
             *triangles = mesh.triangles.size();

@@ -31,6 +31,27 @@ TEST(ReadMesh, TellsTheKindFromTheEnding) {
     EXPECT_EQ(refusal("obj.gz", k_triangle), ": the ending '.gz' is not one of .obj, .off, .ply and .stl");
 }
 
+// A gzip file was said to begin with '????', or to have a wrong count of triangles.
+TEST(ReadMesh, NamesPackedFiles) {
+    using namespace std::string_view_literals;
+    const std::pair<std::string_view, std::string> kinds[] = {
+        {"\x1F\x8B\x08", "a gzip file"},       {"PK\3\4", "a zip archive"},         {"PK\5\6", "a zip archive"},
+        {"\xFD\x37zXZ\0"sv, "an xz file"},     {"\x28\xB5\x2F\xFD", "a zstd file"}, {"BZh9", "a bzip2 file"},
+        {"7z\xBC\xAF\x27\x1C", "a 7z archive"}};
+    for (const auto& [start, kind] : kinds) {
+        for (const char* ending : {"obj", "off", "ply", "stl", "obj.gz", "zip", ""}) {
+            for (const std::size_t size : {10U, 83U, 84U, 1000U}) {
+                std::string bytes(start);
+                bytes.resize(size, '\1');
+                EXPECT_EQ(refusal(ending, bytes), ": is " + kind + ": unpack it first") << ending << ' ' << size;
+            }
+        }
+        // The first 80 bytes of a binary STL are free, and its size tells what it is.
+        EXPECT_EQ(refusal("stl", test::binary_stl({0, 0, 0, 1, 0, 0, 0, 1, 0}, start)), "read");
+    }
+    EXPECT_EQ(refusal("obj", "PK 3\n"), ":1: unknown statement 'PK'");
+}
+
 TEST(ReadMesh, RefusesWhatIsNoFile) {
     const std::filesystem::path folder = testing::TempDir();
     EXPECT_EQ(refusal_of(folder / "pierce_no_such_file.obj"), ": can't be opened: No such file or directory");
@@ -126,7 +147,7 @@ TEST(ReadMesh, RefusesMoreThanIndicesCanName) {
     const detail::SourceFile source(file.path());
     const std::vector<std::uint32_t> quad = {0, 1, 2, 3};
     const auto message = [&](auto act) -> std::string {
-        detail::SoupBuilder<double> soup(source, 4);
+        detail::SoupBuilder<double> soup(source, {}, 4);
         try {
             act(soup);
         } catch (const MeshError& error) {

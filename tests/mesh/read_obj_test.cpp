@@ -70,28 +70,27 @@ TEST(ReadObj, IndicesCountFromTheirFaceBackwardOrMayRunAhead) {
 }
 
 TEST(ReadObj, RefusesIndicesOutOfRange) {
-    EXPECT_EQ(refusal("obj", k_square + "f 1 2 5\n"), ":5: corner 5 of the face is out of range: there are 4 vertices");
-    EXPECT_EQ(refusal("obj", k_square + "f 1 2 5/1/1\n"),
-              ":5: corner 5 of the face is out of range: there are 4 vertices");
+    EXPECT_EQ(refusal("obj", k_square + "f 1 2 5\n"), ":5: face 0: vertex index 5 is out of range (4 vertices)");
+    EXPECT_EQ(refusal("obj", k_square + "f 1 2 5/1/1\n"), ":5: face 0: vertex index 5 is out of range (4 vertices)");
     EXPECT_EQ(refusal("obj", k_square + "f 1 2 0\n"),
-              ":5: corner 0 of the face is out of range: vertices are counted from 1");
+              ":5: face 0: vertex index 0 is out of range (vertices are counted from 1)");
     EXPECT_EQ(refusal("obj", "v 0 0 0\nf 1 1 -2//3\nv 0 0 0\n"),
-              ":2: corner -2 of the face is out of range: there is 1 vertex before it");
+              ":2: face 0: vertex index -2 is out of range (1 vertex before it)");
     // 2^32 + 1 and 2^64 + 1 would be 1 in 32 and 64 bits.
     for (const char* huge :
          {"4294967297", "18446744073709551617", "+9223372036854775808", "1000000000000000000000000000000"}) {
         EXPECT_EQ(refusal("obj", k_square + "f 1 2 " + huge),
-                  ":5: corner " + std::string(huge) + " of the face is out of range: there are 4 vertices");
+                  ":5: face 0: vertex index " + std::string(huge) + " is out of range (4 vertices)");
     }
     EXPECT_EQ(refusal("obj", k_square + "f 1 2 -18446744073709551615\n"),
-              ":5: corner -18446744073709551615 of the face is out of range: there are 4 vertices before it");
+              ":5: face 0: vertex index -18446744073709551615 is out of range (4 vertices before it)");
 }
 
 TEST(ReadObj, NamesTheFirstFaceThatRunsTooFarAhead) {
     // Of the corners ahead, 3 and 4 come to exist; 6 is the first that does not, and 9 is further off.
     EXPECT_EQ(refusal("obj", "f 3 1 2\nf 4 3 1\nf 2 1 6\nf 9 1 1\nf 5 5 5\n" + k_square),
-              ":3: corner 6 of the face is out of range: there are 4 vertices");
-    EXPECT_EQ(refusal("obj", "f 1 2 3\n"), ":1: corner 1 of the face is out of range: there are 0 vertices");
+              ":3: face 2: vertex index 6 is out of range (4 vertices)");
+    EXPECT_EQ(refusal("obj", "f 1 2 3\n"), ":1: face 0: vertex index 1 is out of range (0 vertices)");
 }
 
 TEST(ReadObj, KeepsDegenerateAndDuplicateFaces) {
@@ -120,6 +119,14 @@ TEST(ReadObj, PassesOverWhatHoldsNoSurface) {
 TEST(ReadObj, ABackslashBehindANameHidesNothing) {
     EXPECT_EQ(read("obj", k_square + "f 1 2 3\nusemtl C:\\maps\\\nf 1 3 4\n").triangles.size(), 2U);
     EXPECT_EQ(read("obj", k_square + "# C:\\maps\\\nf 1 3 4\n").triangles.size(), 1U);
+}
+
+// Comments in Viewpoint's files, which are everywhere. They were unknown statements.
+TEST(ReadObj, PassesOverLinesThatBeginWithADollar) {
+    const auto mesh = read("obj", "$ Viewpoint\n$\n" + k_square + "  $Id: C:\\a\\\n\t$f 1 2 3\nf 1 2 3 # $\n$");
+    EXPECT_EQ(mesh.positions.size(), 4U);
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
+    EXPECT_EQ(refusal("obj", k_square + "f 1 2 $3\n"), ":5: '$3' is not a corner");
 }
 
 TEST(ReadObj, RefusesWhatItDoesNotKnow) {

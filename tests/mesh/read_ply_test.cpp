@@ -137,13 +137,11 @@ TEST(ReadPly, TakesEveryTypeOfCorner) {
     EXPECT_EQ(read("ply", file("uint uint", std::uint32_t{3}, std::uint32_t{2})).triangles, expected);
     const auto start = [](const std::string& bytes) { return bytes.find("end_header\n") + 11; };
     std::string bytes = file("uchar int", std::uint8_t{3}, std::int32_t{1});
-    EXPECT_EQ(refusal("ply", bytes),
-              ": byte " + std::to_string(start(bytes) + 9) +
-                  ": corner -1 of the face is out of range: there are 3 vertices, counted from 0");
+    EXPECT_EQ(refusal("ply", bytes), ": byte " + std::to_string(start(bytes) + 9) +
+                                         ": face 0: vertex index -1 is out of range (3 vertices, counted from 0)");
     bytes = file("uchar uint", std::uint8_t{3}, std::uint32_t{3});
-    EXPECT_EQ(refusal("ply", bytes),
-              ": byte " + std::to_string(start(bytes) + 1) +
-                  ": corner 3 of the face is out of range: there are 3 vertices, counted from 0");
+    EXPECT_EQ(refusal("ply", bytes), ": byte " + std::to_string(start(bytes) + 1) +
+                                         ": face 0: vertex index 3 is out of range (3 vertices, counted from 0)");
     bytes = file("char int", std::int8_t{-1}, std::int32_t{2});
     EXPECT_EQ(refusal("ply", bytes), ": byte " + std::to_string(start(bytes)) + ": a list can't have -1 numbers");
     bytes = file("uchar int", std::uint8_t{2}, std::int32_t{2});
@@ -212,8 +210,6 @@ TEST(ReadPly, RefusesHeadersWithoutAMesh) {
     const auto header = [](const std::string& lines) { return refusal("ply", text_ply(lines, k_rows)); };
     EXPECT_EQ(header(k_vertex), ": holds no face");
     EXPECT_EQ(header(k_vertex + "element face 0\nproperty list uchar int vertex_indices\n"), ": holds no face");
-    EXPECT_EQ(header(k_vertex + "element tristrips 1\nproperty list int int vertex_indices\n"),
-              ":7: triangle strips are not read");
     EXPECT_EQ(header(k_face), ":3: there are faces, but no element 'vertex'");
     EXPECT_EQ(header("element vertex 3\nproperty float x\nproperty float y\n" + k_face),
               ":3: element 'vertex' has no number 'z'");
@@ -263,9 +259,9 @@ TEST(ReadPly, RefusesTextRowsThatAreWrong) {
     EXPECT_EQ(rows("0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n"), ":11: coordinate 'nan' is not finite");
     EXPECT_EQ(rows("0 0 0\n1 x 0\n0 1 0\n3 0 1 2\n"), ":11: 'x' is not a number");
     EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
-              ":13: corner 3 of the face is out of range: there are 3 vertices, counted from 0");
+              ":13: face 0: vertex index 3 is out of range (3 vertices, counted from 0)");
     EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"),
-              ":13: corner -1 of the face is out of range: there are 3 vertices, counted from 0");
+              ":13: face 0: vertex index -1 is out of range (3 vertices, counted from 0)");
     EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0\n3 0 1 18446744073709551616\n"),
               ":13: '18446744073709551616' is not an integer of at most 32 bits");
     EXPECT_EQ(rows("0 0 0\n1 0 0\n0 1 0\n3 0 1 1.0\n"), ":13: '1.0' is not an integer");

@@ -38,6 +38,21 @@ TEST(ReadStl, TakesTextInAnyCaseAndLayout) {
     EXPECT_EQ(mesh.triangles, (std::vector<IndexTriple>{{0, 1, 2}}));
 }
 
+// Some programs write what ends a part as two words.
+TEST(ReadStl, TakesEndsInTwoWords) {
+    const auto mesh =
+        read("stl",
+             "solid cube\nfacet normal 0 0 1 outer loop\nvertex 0 0 0 vertex 1 0 0 vertex 0 1 0\nend loop\n"
+             "END Facet\nend \tsolid cube\nsolid two\n" +
+                 k_other + "end solid\n");
+    EXPECT_EQ(mesh.triangles, (std::vector<IndexTriple>{{0, 1, 2}, {2, 1, 3}}));
+    const auto facet = [](const std::string& text) { return refusal("stl", "solid a\n" + text); };
+    EXPECT_EQ(facet("end\n"), ":2: 'end' is not 'facet' or 'endsolid'");
+    EXPECT_EQ(facet("end facet\n"), ":2: 'end' is not 'facet' or 'endsolid'");
+    EXPECT_EQ(facet(k_facet + "end\nsolid\n"), ":9: 'end' is not 'facet' or 'endsolid'");
+    EXPECT_EQ(facet("facet normal 0 0 1\nouter loop\nend vertex\n"), ":4: 'end' is not 'vertex' or 'endloop'");
+}
+
 TEST(ReadStl, ReadsBinary) {
     const auto mesh = read("stl", binary_stl(k_square));
     EXPECT_EQ(mesh.positions.size(), 4U);

@@ -40,9 +40,9 @@ class TempFile {
 };
 
 template <class Scalar = double>
-TriangleSoup<Scalar> read(std::string_view ending, std::string_view bytes) {
+TriangleSoup<Scalar> read(std::string_view ending, std::string_view bytes, const ReadOptions& options = {}) {
     const TempFile file(ending, bytes);
-    return read_mesh<Scalar>(file.path());
+    return read_mesh<Scalar>(file.path(), options);
 }
 
 /// The message with which a file is refused, less its path: ":3: reason". "read" if it is not refused.
@@ -63,6 +63,19 @@ std::string refusal(std::string_view ending, std::string_view bytes) {
     return refusal_of<Scalar>(TempFile(ending, bytes).path());
 }
 
+/// Names of faces, if there are any: one a face, each in the list or none.
+inline void expect_valid_names(const std::vector<std::uint32_t>& of_face, const std::vector<std::string>& names,
+                               std::size_t faces) {
+    EXPECT_TRUE(of_face.empty() ? names.empty() : of_face.size() == faces);
+    for (const std::uint32_t name : of_face) {
+        EXPECT_TRUE(name == k_no_name || name < names.size());
+    }
+    for (const std::string& name : names) {
+        EXPECT_FALSE(name.empty());
+        EXPECT_EQ(name.find_first_of("\r\n"), std::string::npos);
+    }
+}
+
 /// Every index in range, every coordinate finite, faces numbered without gaps.
 template <class Scalar>
 void expect_valid(const TriangleSoup<Scalar>& mesh) {
@@ -80,6 +93,8 @@ void expect_valid(const TriangleSoup<Scalar>& mesh) {
             EXPECT_LE(mesh.faces[i] - mesh.faces[i - 1], 1U);
         }
     }
+    expect_valid_names(mesh.material_of_face, mesh.materials, mesh.face_count());
+    expect_valid_names(mesh.group_of_face, mesh.groups, mesh.face_count());
 }
 
 /// Adds the bytes of a number in the given order.
@@ -143,6 +158,19 @@ inline std::string binary_ply(std::endian order) {
     return bytes;
 }
 
+/// A binary PLY file of two triangle strips in one row.
+inline std::string strips_ply() {
+    std::string bytes =
+        "ply\nformat binary_big_endian 1.0\nelement vertex 4\nproperty char x\nproperty char y\nproperty char z\n"
+        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+    bytes += std::string("\0\0\0\1\0\0\0\1\0\0\0\1", 12);
+    put(bytes, std::int32_t{8}, std::endian::big);
+    for (const std::int32_t corner : {0, 1, 2, 3, -1, 3, 1, 0}) {
+        put(bytes, corner, std::endian::big);
+    }
+    return bytes;
+}
+
 struct SmallFile {
     std::string ending;
     std::string bytes;
@@ -154,19 +182,33 @@ inline std::vector<SmallFile> small_files() {
         {"obj",
          "# small\nv 0 0 0\nv 1 0 0 1.0\nvn 0 0 1\nv 1 1.5e0 0\nv 0 +1 0 \\\n 1 0 0\nusemtl a\nf 1//1 2//1 3//1\n"
          "f -4 -3 \\\n-2 -1\r\nf 1/2/3 5 4/1\nv 2 2 2\n"},
+        {"obj",
+         "$ Viewpoint\no box\nv 0 0 0\nv 1 0 0\nv 1 1 0\ng left \\\n wing\nusemtl C:\\a\\\nf 1 2 3\nusemtl # none\n"
+         "f 3 2 1\ng\nf 1 1 2\n"},
         {"off",
          "COFF # small\n4 2 0\n0 0 0 255 0 0\n1 0 0 255 0 0 255\n1 1 0 1 1 1\n\n0 1 -2.5 1 1 1\n4 0 1 2 3\n3 0 1 3 0.5 "
          "0.5 0.5\n"},
+        {"off",
+         "OFF#small\n4\n2\n0#edges\n0 0 0 200 100 50 255\n1 0 0 200 100 50 0#red\n1 1 0 200 100 50 255\n"
+         "0 1 -2.5 200 100 50 1.0\n4 0 1 2 3\n3 0 1 3#red\n"},
         {"ply",
          "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
          "property list uchar int extra\nelement face 2\nproperty list uchar int vertex_index\nend_header\n"
          "0 0 0 0\n1 0 0 1 7\n1 1 0 2 7 8\n0 1 -2.5 0\n4 0 1 2 3\n3 0 1 3\n"},
+        {"ply",
+         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+         "element tristrips 2\nproperty list int int vertex_indices\nend_header\n"
+         "0 0 0\n1 0 0\n1 1 0\n0 1 -2.5\n8 0 1 2 3 -1 0 1 3\n3 0 0 1\n"},
+        {"ply", strips_ply()},
         {"ply", binary_ply(std::endian::little)},
         {"ply", binary_ply(std::endian::big)},
         {"stl",
          "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1e0 0\nendloop\nendfacet\n"
          "endsolid one\nsolid\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 1 0 vertex 0 1 0 endloop "
          "endfacet\nendsolid\n"},
+        {"stl",
+         "solid a b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1e0 0\nend loop\nend facet\n"
+         "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 1 0 vertex 0 1 0 end loop endfacet\nend solid a b\n"},
         {"stl", binary_stl({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0})},
     };
 }

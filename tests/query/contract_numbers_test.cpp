@@ -57,9 +57,9 @@ std::string error_of(const TriangleSoup<double>& soup) {
 TEST(ContractNumbers, a_bad_mesh_is_refused_by_name) {
     TriangleSoup<double> soup = corner_triangle();
     soup.triangles.push_back({0, 1, 3});
-    EXPECT_EQ(error_of(soup), "face 1 (triangle 1): corner 3 is out of range: there are 3 vertices");
+    EXPECT_EQ(error_of(soup), "face 1: vertex index 3 is out of range (3 vertices)");
     soup.faces = {7, 7};
-    EXPECT_EQ(error_of(soup), "face 7 (triangle 1): corner 3 is out of range: there are 3 vertices");
+    EXPECT_EQ(error_of(soup), "face 7: vertex index 3 is out of range (3 vertices)");
     soup.faces = {7};
     EXPECT_EQ(error_of(soup), "the mesh numbers 1 faces, but has 2 triangles");
     soup = corner_triangle();

@@ -81,6 +81,7 @@ MeshReport naive_report(const TriangleSoup<Scalar>& soup) {
         } else if (balance != 0) {
             note(r.misoriented_edges, r.misoriented_edge_list, edge);
         }
+        ++r.edges_with[std::min(list.size(), MeshReport::k_most_around_edge)];
         if (list.size() > 2) note(r.non_manifold_edges, r.non_manifold_edge_list, edge);
     }
     constexpr double k_epsilon = std::numeric_limits<Scalar>::epsilon();
@@ -99,6 +100,7 @@ std::size_t compare(const TriangleSoup<double>& given) {
     const MeshReport r = CollisionMesh<Scalar>(soup.view()).mesh_report();
     const MeshReport naive = naive_report(soup);
     EXPECT_EQ(r.to_string(), naive.to_string());
+    EXPECT_EQ(r.edges_with, naive.edges_with);  // the text has them for non-manifold meshes only
     return r.border_edges + r.duplicates + r.non_manifold_vertices + r.t_junctions;
 }
 

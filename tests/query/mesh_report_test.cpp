@@ -73,6 +73,41 @@ TEST(MeshReport, names_a_turned_face_a_third_wing_and_a_double) {
     EXPECT_FALSE(r.closed());
 }
 
+TEST(MeshReport, counts_the_triangles_of_each_edge) {
+    // Walls that meet in a pillar are as they should be, and none of them is a fault to be found: half a sphere's worth
+    // of wings around one edge, of each number, far apart from one another.
+    TriangleSoup<double> soup;
+    for (std::uint32_t wings = 1; wings <= 11; ++wings) {
+        const auto low = static_cast<std::uint32_t>(soup.positions.size());
+        const double x = 10.0 * wings;
+        soup.positions.insert(soup.positions.end(), {V(x, 0, 0), V(x, 0, 1)});
+        for (std::uint32_t i = 0; i < wings; ++i) {
+            soup.positions.push_back(V(x + std::cos(0.25 * i), std::sin(0.25 * i), 0));
+            soup.triangles.push_back(i % 2 == 0 ? IndexTriple{low, low + 1, low + 2 + i}
+                                                : IndexTriple{low + 1, low, low + 2 + i});
+        }
+    }
+    const MeshReport r = report(soup);
+    EXPECT_EQ(r.edges_with, (std::array<std::size_t, 9>{0, 133, 1, 1, 1, 1, 1, 1, 4}));
+    EXPECT_EQ(r.non_manifold_edges, 9U);
+    EXPECT_NE(r.to_string().find("  edges by their number of triangles:  1: 133  2: 1  3: 1  4: 1  5: 1  6: 1  7: 1"
+                                 "  8 or more: 4\n"),
+              std::string::npos)
+        << r.to_string();
+
+    // Two boxes that share an edge: closed, as from each side of it as many come as go.
+    soup = polycube(2, 1, 1, 1);
+    EXPECT_EQ(report(soup).edges_with[2], 3 * soup.triangles.size() / 2);
+    soup = tetrahedron(V(0, 0, 0), V(1, 0, 0), V(0, 1, 0), V(0, 0, 1));
+    append(soup, tetrahedron(V(0, 0, 0), V(-1, 0, 0), V(0, -1, 0), V(0, 0, 1)));
+    const MeshReport two = report(soup);
+    EXPECT_TRUE(two.closed());
+    EXPECT_EQ(two.edges_with, (std::array<std::size_t, 9>{0, 0, 10, 0, 1, 0, 0, 0, 0}));
+    EXPECT_EQ(two.to_string(),
+              "closed: nothing gets through; 1 component\n  1 edges of more than two triangles: 0-3\n"
+              "  edges by their number of triangles:  2: 10  4: 1\n");
+}
+
 TEST(MeshReport, names_a_vertex_where_fans_touch) {
     // Two tetrahedra that share one vertex, by coordinates.
     TriangleSoup<double> soup;
