@@ -11,6 +11,7 @@
 
 #include <pierce/explain.h>
 #include <pierce/hit.h>
+#include <pierce/location.h>
 #include <pierce/mesh_report.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
@@ -112,6 +113,12 @@ class CollisionMesh {
 
     /// Whether the winding number is not 0.
     [[nodiscard]] bool contains(const Vec3<Scalar>& point, QueryCounters* counters = nullptr) const noexcept;
+
+    /// Whether the point is outside, inside or on the surface, exactly, with its winding number. The triangles that it
+    /// lies on go to `faces` in order of (face, triangle), as many of them as fit; `Location::face_count` has how many
+    /// there are. The time is that of `winding_number` and of a look at the triangles near the point.
+    [[nodiscard]] Location locate(const Vec3<Scalar>& point, std::span<FaceTouch> faces = {},
+                                  QueryCounters* counters = nullptr) const noexcept;
 
     /// Why each face near the segment is its first hit or is not, in the order of triangles. Near are those whose box
     /// is no further from the segment's, along each axis, than that is long along its longest. For debugging: it looks

@@ -8,6 +8,7 @@
 #include <environment.h>
 #include <query/collision_mesh_impl.h>
 #include <query/engine.h>
+#include <query/locate.h>
 #include <query/mesh_report.h>
 
 namespace pierce {
@@ -96,6 +97,15 @@ int CollisionMesh<Scalar>::winding_number(const Vec3<Scalar>& point, QueryCounte
 template <class Scalar>
 bool CollisionMesh<Scalar>::contains(const Vec3<Scalar>& point, QueryCounters* counters) const noexcept {
     return winding_number(point, counters) != 0;
+}
+
+template <class Scalar>
+Location CollisionMesh<Scalar>::locate(const Vec3<Scalar>& point, std::span<FaceTouch> faces,
+                                       QueryCounters* given) const noexcept {
+    const StandardArithmetic standard;
+    Counters counters(given);
+    if (!impl_->finite(point)) return {};
+    return detail::locate(impl_->scene, point, faces, counters);
 }
 
 template <class Scalar>
