@@ -15,6 +15,7 @@
 #include <pierce/mesh_report.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
+#include <pierce/passage.h>
 #include <pierce/types.h>
 
 namespace pierce {
@@ -105,6 +106,13 @@ class CollisionMesh {
     /// and vertices. On a closed, consistently oriented mesh the result is the winding number at `to` less that at
     /// `from`. Not finite: 0.
     [[nodiscard]] int crossings(const Segment<Scalar>& segment, QueryCounters* counters = nullptr) const noexcept;
+
+    /// The first `out.size()` places where the segment passes through the surface or touches it, in exact order, the
+    /// faces of each taken together (`Passage`). Returns how many there are in all, unless `count_all` is false. The
+    /// faces of passage p go to `faces[p.first_face]` and so on, `p.face_count` of them in order of (face, triangle), if
+    /// all of them fit. The time is that of one traversal for each 32 passages, and as much again for `faces`.
+    std::size_t passages(const Segment<Scalar>& segment, std::span<Passage<Scalar>> out,
+                         const PassageOptions& options = {}, std::span<FaceTouch> faces = {}) const noexcept;
 
     /// How many times the surface winds around the point: 1 inside of a closed mesh whose faces look outwards, 0
     /// outside. A point of the surface itself is taken as moved as in `crossings`. On an open mesh the answer is that

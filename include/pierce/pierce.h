@@ -6,7 +6,7 @@
 //       particle = hit->point;                                  // safe to stand on, safe to step from
 //
 // Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, location.h,
-// collision_mesh.h.
+// passage.h, collision_mesh.h.
 // <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single
 // triangles.
 #pragma once
@@ -16,5 +16,6 @@
 #include <pierce/location.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
+#include <pierce/passage.h>
 #include <pierce/triangle_soup.h>
 #include <pierce/types.h>
