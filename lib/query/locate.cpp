@@ -67,7 +67,26 @@ Location locate(const Scene<Scalar>& scene, const Vec3<Scalar>& at, std::span<Fa
     return location;
 }
 
+template <class Scalar>
+std::size_t locate(const Scene<Scalar>& scene, std::span<const Vec3<Scalar>> points, Location* out,
+                   QueryCounters& counters, std::size_t& invalid) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        out[i] = {};
+        if (!points[i].allFinite()) {
+            ++invalid;
+            continue;
+        }
+        out[i] = locate(scene, points[i], {}, counters);
+        count += out[i].place == Place::on_surface ? 1 : 0;
+    }
+    return count;
+}
+
 template Location locate(const Scene<float>&, const Vec3<float>&, std::span<FaceTouch>, QueryCounters&);
 template Location locate(const Scene<double>&, const Vec3<double>&, std::span<FaceTouch>, QueryCounters&);
+template std::size_t locate(const Scene<float>&, std::span<const Vec3<float>>, Location*, QueryCounters&, std::size_t&);
+template std::size_t locate(const Scene<double>&, std::span<const Vec3<double>>, Location*, QueryCounters&,
+                            std::size_t&);
 
 }  // namespace pierce::detail
