@@ -13,9 +13,11 @@
 #include <pierce/explain.h>
 #include <pierce/export.h>
 #include <pierce/hit.h>
+#include <pierce/location.h>
 #include <pierce/mesh_report.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
+#include <pierce/passage.h>
 #include <pierce/ray.h>
 #include <pierce/types.h>
 
@@ -130,6 +132,13 @@ class PIERCE_EXPORT CollisionMesh {
     /// `from`. Not finite: 0.
     [[nodiscard]] int crossings(const Segment<Scalar>& segment, QueryCounters* counters = nullptr) const noexcept;
 
+    /// The first `out.size()` places where the segment passes through the surface or touches it, in exact order, the
+    /// faces of each taken together (`Passage`). Returns how many there are in all, unless `count_all` is false. The
+    /// faces of passage p go to `faces[p.first_face]` and so on, `p.face_count` of them in order of (face, triangle), if
+    /// all of them fit. The time is that of one traversal for each 32 passages, and as much again for `faces`.
+    std::size_t passages(const Segment<Scalar>& segment, std::span<Passage<Scalar>> out,
+                         const PassageOptions& options = {}, std::span<FaceTouch> faces = {}) const noexcept;
+
     /// How many times the surface winds around the point: 1 inside of a closed mesh whose faces look outwards, 0
     /// outside. A point of the surface itself is taken as moved as in `crossings`. On an open mesh the answer is that
     /// of one way out, along an axis; see `mesh_report`. Not finite: 0.
@@ -137,6 +146,36 @@ class PIERCE_EXPORT CollisionMesh {
 
     /// Whether the winding number is not 0.
     [[nodiscard]] bool contains(const Vec3<Scalar>& point, QueryCounters* counters = nullptr) const noexcept;
+
+    /// Whether the point is outside, inside or on the surface, exactly, with its winding number. The triangles that it
+    /// lies on go to `faces` in order of (face, triangle), as many of them as fit; `Location::face_count` has how many
+    /// there are. The time is that of `winding_number` and of a look at the triangles near the point.
+    [[nodiscard]] Location locate(const Vec3<Scalar>& point, std::span<FaceTouch> faces = {},
+                                  QueryCounters* counters = nullptr) const noexcept;
+
+    /// Many questions in one call: `out[i]` is what the single call for number i gives, to the last bit, whatever the
+    /// executor. With the tree sixteen queries go on together, as in `first_hits`. `out` must be as long as the questions
+    /// are many; if it is not, std::invalid_argument is thrown.
+    ///
+    /// Returns the number of points that are contained; `out[i]` is 1 for these, else 0. Points that are given in no
+    /// order are sorted first: then this one and `winding_numbers` take 16 bytes of memory a point while they run, 16 MiB
+    /// at most. The others allocate nothing.
+    std::size_t contains_points(std::span<const Vec3<Scalar>> points, std::span<std::uint8_t> out,
+                                const PlainBatchOptions& options = {}) const;
+    void winding_numbers(std::span<const Vec3<Scalar>> points, std::span<int> out,
+                         const PlainBatchOptions& options = {}) const;
+    /// Returns the number of points that are on the surface.
+    std::size_t locate_points(std::span<const Vec3<Scalar>> points, std::span<Location> out,
+                              const PlainBatchOptions& options = {}) const;
+    void crossings(std::span<const Segment<Scalar>> segments, std::span<int> out,
+                   const PlainBatchOptions& options = {}) const;
+
+    /// All hits of many segments as compressed rows: those of segment i, in order, are `hits[offsets[i]]` up to
+    /// `hits[offsets[i + 1]]`, without that. `offsets` must be one longer than `segments`. Returns how many hits there
+    /// are in all, `offsets.back()`. The hits of a segment are written if all of them fit: call with no `hits` to learn
+    /// how many there are, which is much faster than writing them, make room, and call again. Allocates nothing.
+    std::size_t all_hits(std::span<const Segment<Scalar>> segments, std::span<std::size_t> offsets,
+                         std::span<Hit<Scalar>> hits, const BatchOptions& options = {}) const;
 
     /// Why each face near the segment is its first hit or is not, in the order of triangles. Near are those whose box
     /// is no further from the segment's, along each axis, than that is long along its longest. For debugging: it looks

@@ -6,13 +6,13 @@
 
 namespace pierce::detail {
 
-// For a hit, from_side = F and to_side = T have opposite signs (or F is 0), so with A = |F| and B = |T| its fraction is
-// A / (A + B), whichever side was hit.
+// For a triangle that is hit or touched, from_side = F and to_side = T have opposite signs, or one of them is 0 and the
+// other is not. So with A = |F| and B = |T| its fraction is A / (A + B), whichever side was hit, and A + B > 0.
 
 int compare_fractions(const Path& path, const Corners& first, const Corners& second) {
     Lattice lattice = lattice_of(path, first);
     for (const Point& corner : second) lattice.add(corner);
-    // A1 / (A1 + B1) < A2 / (A2 + B2)  <=>  A1 B2 < A2 B1, all of them >= 0.
+    // A1 / (A1 + B1) < A2 / (A2 + B2)  <=>  A1 B2 < A2 B1, all of them >= 0, both sums > 0.
     const auto order = [](const auto& one, const auto& two) {
         return compare_products(magnitude(one.from_side()), magnitude(two.to_side()), magnitude(two.from_side()),
                                 magnitude(one.to_side()));

@@ -59,19 +59,18 @@ struct Way {
     int exponent;
 };
 
-// False where it has no length.
-bool set_way(const Frame& frame, const double* from, const double* to, bool ray, Way& way) {
+// Where it has no length e is 0.
+void set_way(const Frame& frame, const double* from, const double* to, bool ray, Way& way) {
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         // Halves: the difference of two doubles may be infinite.
         way.e[k] = two_sum(to[k] * 0.5, ray ? 0.0 : -from[k] * 0.5);
         longest = std::max(longest, std::abs(way.e[k].high));
     }
-    if (longest == 0) return false;
+    if (longest == 0) return;
     const int size = std::ilogb(longest);
     for (Fine& x : way.e) x = {std::ldexp(x.high, -size), std::ldexp(x.low, -size)};
     way.exponent = size + 1 + std::ilogb(frame.unit);
-    return true;
 }
 
 /// Where q + r e is in the scene's box, widened: from r = in to out. False: nowhere.
@@ -110,7 +109,7 @@ FinePoint moved(const FinePoint& q, double r, const FinePoint& e) {
 
 bool clip(const Frame& frame, const double* from, const double* to, bool ray, Clipped& clipped) {
     Way way{};
-    if (!set_way(frame, from, to, ray, way)) return false;
+    set_way(frame, from, to, ray, way);
     const double length = std::ldexp(1.0, std::min(way.exponent, 1100));  // may be infinite
     std::array<FinePoint, 2> ends{};
     for (std::size_t k = 0; k < 3; ++k) {

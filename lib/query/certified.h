@@ -32,6 +32,20 @@ template <class Scalar>
                            {w[0], w[1], w[2]}});
 }
 
+/// Sets the interval of what exact arithmetic found to be hit or touched, where the filter left one that says little.
+inline void set_exact_interval(const Path& path, const Corners& corners, QueryCounters& counters, Filtered& filtered) {
+    if (filtered.decision.at_start) {
+        filtered.earliest = filtered.latest = 0;
+    } else if (filtered.latest - filtered.earliest > 0x1p-20) {
+        // Nothing useful is known of the fraction. One rounded once is within 1 ulp, or two steps where it is denormal.
+        ++counters.exact_values;
+        const double fraction = measure(path, corners).fraction;
+        const double slack = fraction * 0x1p-52 + 0x1p-1072;
+        filtered.earliest = fraction - slack;
+        filtered.latest = fraction + slack;
+    }
+}
+
 /// All that is certified about a triangle that the wide kernels leave: whether it is hit, and its values. (A policy, so
 /// that the benchmark can put another in its place and measure what certainty costs.)
 struct Certified {
@@ -70,17 +84,7 @@ struct Certified {
         ++counters.exact_decisions;
         filtered.decision = decide(path, corners, sides);
         if (!filtered.decision.hit) return false;
-        if (filtered.decision.at_start) {
-            filtered.earliest = filtered.latest = 0;
-        } else if (filtered.latest - filtered.earliest > 0x1p-20) {
-            // Nothing useful is known of the fraction. One rounded once is within 1 ulp, or two steps where it is
-            // denormal.
-            ++counters.exact_values;
-            const double fraction = measure(path, corners).fraction;
-            const double slack = fraction * 0x1p-52 + 0x1p-1072;
-            filtered.earliest = fraction - slack;
-            filtered.latest = fraction + slack;
-        }
+        set_exact_interval(path, corners, counters, filtered);
         return true;
     }
 };

@@ -8,7 +8,9 @@
 #include <environment.h>
 #include <query/collision_mesh_impl.h>
 #include <query/engine.h>
+#include <query/locate.h>
 #include <query/mesh_report.h>
+#include <query/passages.h>
 
 namespace pierce {
 
@@ -130,6 +132,24 @@ int CollisionMesh<Scalar>::winding_number(const Vec3<Scalar>& point, QueryCounte
 template <class Scalar>
 bool CollisionMesh<Scalar>::contains(const Vec3<Scalar>& point, QueryCounters* counters) const noexcept {
     return winding_number(point, counters) != 0;
+}
+
+template <class Scalar>
+std::size_t CollisionMesh<Scalar>::passages(const Segment<Scalar>& segment, std::span<Passage<Scalar>> out,
+                                            const PassageOptions& options, std::span<FaceTouch> faces) const noexcept {
+    const StandardArithmetic standard;
+    Counters counters(options.counters);
+    if (!impl_->finite(segment.from, segment.to) || !(options.max_fraction >= 0)) return 0;
+    return detail::passages(impl_->scene, segment, out, faces, options, counters);
+}
+
+template <class Scalar>
+Location CollisionMesh<Scalar>::locate(const Vec3<Scalar>& point, std::span<FaceTouch> faces,
+                                       QueryCounters* given) const noexcept {
+    const StandardArithmetic standard;
+    Counters counters(given);
+    if (!impl_->finite(point)) return {};
+    return detail::locate(impl_->scene, point, faces, counters);
 }
 
 template <class Scalar>

@@ -4,57 +4,13 @@
 #include <environment.h>
 #include <query/collision_mesh_impl.h>
 #include <query/engine.h>
+#include <query/parts.h>
 
 namespace pierce {
 
 using namespace detail;
 
 namespace {
-
-// Large enough for the queries under way to be many at almost all times, small enough to be shared evenly.
-constexpr std::size_t k_part = 1024;
-
-void add(QueryCounters& to, const QueryCounters& from) {
-    const auto atomic_add = [](std::uint64_t& x, std::uint64_t y) {
-        std::atomic_ref(x).fetch_add(y, std::memory_order_relaxed);
-    };
-    atomic_add(to.queries, from.queries);
-    atomic_add(to.nodes, from.nodes);
-    atomic_add(to.clusters, from.clusters);
-    atomic_add(to.triangles, from.triangles);
-    atomic_add(to.exact_decisions, from.exact_decisions);
-    atomic_add(to.exact_orders, from.exact_orders);
-    atomic_add(to.exact_values, from.exact_values);
-    atomic_add(to.exact_sides, from.exact_sides);
-    atomic_add(to.retreats, from.retreats);
-}
-
-/// Calls `part(first, last, counters, invalid)`, which returns its number of hits, for all parts of `count` queries.
-template <class Part>
-std::size_t in_parts(std::size_t count, const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries,
-                     Part&& part) {
-    std::atomic<std::size_t> hits = 0;
-    options.executor((count + k_part - 1) / k_part, [&](std::size_t i) {
-        const std::size_t first = i * k_part;
-        const std::size_t last = std::min(count, first + k_part);
-        QueryCounters counters;
-        counters.queries = last - first;
-        std::size_t invalid = 0;
-        const StandardArithmetic standard;
-        hits.fetch_add(part(first, last, counters, invalid), std::memory_order_relaxed);
-        if (invalid > 0) invalid_queries.fetch_add(invalid, std::memory_order_relaxed);
-        if (options.counters != nullptr) add(*options.counters, counters);
-    });
-    return hits;
-}
-
-// Not inlined: the compiler would move the comparison to where the caller's arithmetic is back (environment.h).
-[[gnu::noinline]] bool is_limit(const double& max_fraction) { return max_fraction >= 0; }
-
-bool asks_nothing(const QueryOptions& options) {
-    const StandardArithmetic standard;  // NaN is no reason to trap
-    return !is_limit(options.max_fraction);
-}
 
 /// What single calls count before they find that nothing is asked.
 template <class Scalar>

@@ -62,6 +62,30 @@ void check() {
                     : 0;
         }
     });
+    std::vector<Vec3<Scalar>> points;
+    for (const Segment<Scalar>& segment : segments) points.push_back(segment.to);
+    std::vector<Location> places(points.size());
+    std::vector<int> counts(points.size());
+    std::vector<std::size_t> offsets(segments.size() + 1);
+    std::vector<Hit<Scalar>> rows(mesh.all_hits(segments, offsets, {}));
+    std::array<Passage<Scalar>, 8> passages;
+    std::array<FaceTouch, 32> touches;
+    const PlainBatchOptions plain{.executor = reversed};
+    expect_none("locate_points and crossings", [&] {
+        mesh.locate_points(points, places, plain);
+        mesh.crossings(segments, counts, plain);
+    });
+    expect_none("few points", [&] {
+        mesh.contains_points(std::span(points).first(4000), std::span(any).first(4000), plain);
+        mesh.winding_numbers(std::span(points).first(4000), std::span(counts).first(4000), plain);
+    });
+    expect_none("all_hits in rows", [&] { mesh.all_hits(segments, offsets, rows, options); });
+    expect_none("locate and passages", [&] {
+        for (std::size_t i = 0; i < segments.size(); i += 5) {
+            places[i] = mesh.locate(points[i], touches);
+            counts[i] = static_cast<int>(mesh.passages(segments[i], passages, {.accept = accept}, touches));
+        }
+    });
     if (counters.exact_decisions == 0) {
         std::puts("nothing was decided exactly");
         failed = true;
