@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -65,29 +64,32 @@ struct Contact {
     Vec3<double> barycentric;
 };
 
-/// A reference to something that is called with a `Contact` and says whether it counts: a lambda, say, that looks up a
-/// texture. It is not owned, and must outlive the query; a temporary lambda in the call itself does.
+/// Something that is called with a `Contact` and says whether it counts: a lambda, say, that looks up a texture.
+///
+/// It keeps what it is made of: a function pointer, or a lambda or other object of up to four pointers that is copied
+/// byte by byte and does not change when it is called. What is larger, owns memory or changes is refused by the compiler
+/// unless it is wrapped in `std::ref`; then it has to live as long as the options are used, as does what a lambda
+/// captures by reference.
 ///
 /// It may be asked about the same face more than once, also for the shortened segment to the point that is being
 /// verified, so its answer must depend on the contact only. It must not throw.
 class Accept {
+    using Kept = detail::SmallCallable<bool(const Contact&)>;
+
   public:
     Accept() = default;
     template <class Callable>
-        requires(!std::is_same_v<std::remove_cvref_t<Callable>, Accept> &&
-                 std::is_invocable_r_v<bool, Callable&, const Contact&>)
-    Accept(Callable&& callable)
-        : callable_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
-          call_([](void* c, const Contact& contact) -> bool {
-              return (*static_cast<std::remove_reference_t<Callable>*>(c))(contact);
-          }) {}
+        requires(Kept::keeps<Callable>)
+    Accept(const Callable& callable) : kept_(callable) {}
+    template <class Callable>
+        requires(!Kept::keeps<Callable> && std::is_invocable_r_v<bool, Callable&, const Contact&>)
+    Accept(const Callable&) = delete;  // too large, not trivially copyable, or changing: wrap it in std::ref
 
-    explicit operator bool() const { return call_ != nullptr; }
-    bool operator()(const Contact& contact) const { return call_(callable_, contact); }
+    explicit operator bool() const { return static_cast<bool>(kept_); }
+    bool operator()(const Contact& contact) const { return kept_(contact); }
 
   private:
-    void* callable_ = nullptr;
-    bool (*call_)(void*, const Contact&) = nullptr;
+    Kept kept_;
 };
 
 /// Every choice is applied to each hit before the first one is looked for, so what does not count hides nothing behind

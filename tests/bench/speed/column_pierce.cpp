@@ -1,3 +1,4 @@
+#include <functional>
 #include <optional>
 
 #include "broadphase.h"
@@ -66,7 +67,7 @@ class FirstBatch : public PierceColumn<Scalar> {
     FirstBatch(std::string_view name, SharedMesh<Scalar> mesh, Sides sides, unsigned threads = 1)
         : PierceColumn<Scalar>(name, std::move(mesh)), executor_(threads) {
         options_.sides = sides;
-        if (threads > 1) options_.executor = executor_;
+        if (threads > 1) options_.executor = std::ref(executor_);
     }
 
     void prepare(std::span<const Segment<float>> segments) override {
