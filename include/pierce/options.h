@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -92,25 +93,22 @@ class Accept {
     Kept kept_;
 };
 
-/// Every choice is applied to each hit before the first one is looked for, so what does not count hides nothing behind
-/// it.
+/// For a single query or a batch of them. A hit that an option leaves out hides nothing behind it: the answer is as if
+/// it were not there.
 struct QueryOptions {
-    /// The side that a segment must come from to hit a triangle.
+    /// The side that a segment must come from to hit a triangle. The front by default: a closed mesh is left and entered
+    /// then by one rule that has no exceptions, and the physics engines that take one-sided meshes (PhysX, Jolt, Unity)
+    /// have the same default; Embree, Bullet and Godot count both. A mesh whose triangles are clockwise seen from outside
+    /// needs `back`, and one that is open, or of mixed orientation, `both`.
     Sides sides = Sides::front;
     /// Only hits whose exact fraction is at most this count. NaN: no hit.
-    double max_fraction = 1.0;
+    double max_fraction = std::numeric_limits<double>::infinity();
     /// If it is not empty, only faces count whose number is a place in it that is not 0.
     std::span<const std::uint8_t> face_mask = {};
-    /// If given, only hits count that it says yes to.
+    /// If given, only hits count that it says yes to. In a batch with an executor it is called from that one's threads.
     Accept accept = {};
-    /// Adds up what the query went through, if given.
+    /// Adds up what the query, or the batch, went through, if given.
     QueryCounters* counters = nullptr;
-};
-
-/// For many queries in one call. With an executor, `accept` is called from its threads.
-struct BatchOptions : QueryOptions {
-    /// Answers in parallel, if given: parts of a thousand queries or so.
-    Executor executor = {};
 };
 
 }  // namespace pierce

@@ -13,20 +13,27 @@ struct Candidate : Filtered {
     Measured measured;  ///< by the path that hits it
 };
 
+/// The order of the exact fractions of two hits: -1, 0 or 1. Duplicates and hits in one place, common in what people
+/// model, take no exact arithmetic.
+template <class Scalar>
+[[nodiscard]] int compare_exactly(const Scene<Scalar>& scene, const Path& path, const Candidate& x, const Candidate& y,
+                                  QueryCounters& counters) {
+    if (x.latest < y.earliest) return -1;
+    if (y.latest < x.earliest) return 1;
+    const Corners of_x = scene.corners(x.triangle);
+    const Corners of_y = scene.corners(y.triangle);
+    if (of_x == of_y || same_place(of_x, x.decision, of_y, y.decision) || in_one_axis_plane(of_x, of_y)) return 0;
+    ++counters.exact_orders;
+    return compare_fractions(path, of_x, of_y);
+}
+
 /// Whether x comes before y: by the exact fraction, then the caller's face number, then the triangle.
 template <class Scalar>
 [[nodiscard]] bool comes_before(const Scene<Scalar>& scene, const Path& path, const Candidate& x, const Candidate& y,
                                 QueryCounters& counters) {
     if (x.latest < y.earliest) return true;
     if (y.latest < x.earliest || x.triangle == y.triangle) return false;
-    const Corners of_x = scene.corners(x.triangle);
-    const Corners of_y = scene.corners(y.triangle);
-    int order = 0;
-    if (of_x != of_y && !same_place(of_x, x.decision, of_y, y.decision) &&
-        !in_one_axis_plane(of_x, of_y)) {  // duplicates are common in what people model
-        ++counters.exact_orders;
-        order = compare_fractions(path, of_x, of_y);
-    }
+    const int order = compare_exactly(scene, path, x, y, counters);
     if (order != 0) return order < 0;
     const std::uint32_t face_x = scene.face_of(x.triangle);
     const std::uint32_t face_y = scene.face_of(y.triangle);

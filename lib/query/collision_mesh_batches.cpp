@@ -1,9 +1,12 @@
 // The façade of batches: parts for the executor, each in standard arithmetic.
+#include <algorithm>
 #include <stdexcept>
+#include <string>
 
 #include <environment.h>
 #include <query/collision_mesh_impl.h>
 #include <query/engine.h>
+#include <query/sinks.h>
 
 namespace pierce {
 
@@ -30,11 +33,12 @@ void add(QueryCounters& to, const QueryCounters& from) {
 }
 
 /// Calls `part(first, last, counters, invalid)`, which returns its number of hits, for all parts of `count` queries.
-template <class Part>
-std::size_t in_parts(std::size_t count, const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries,
-                     Part&& part) {
+/// `count_invalid(number)` counts queries that are not finite.
+template <class CountInvalid, class Part>
+std::size_t in_parts(std::size_t count, const QueryOptions& options, const Executor& executor,
+                     CountInvalid&& count_invalid, Part&& part) {
     std::atomic<std::size_t> hits = 0;
-    options.executor((count + k_part - 1) / k_part, [&](std::size_t i) {
+    executor((count + k_part - 1) / k_part, [&](std::size_t i) {
         const std::size_t first = i * k_part;
         const std::size_t last = std::min(count, first + k_part);
         QueryCounters counters;
@@ -42,7 +46,7 @@ std::size_t in_parts(std::size_t count, const BatchOptions& options, std::atomic
         std::size_t invalid = 0;
         const StandardArithmetic standard;
         hits.fetch_add(part(first, last, counters, invalid), std::memory_order_relaxed);
-        if (invalid > 0) invalid_queries.fetch_add(invalid, std::memory_order_relaxed);
+        count_invalid(invalid);
         if (options.counters != nullptr) add(*options.counters, counters);
     });
     return hits;
@@ -56,147 +60,89 @@ bool asks_nothing(const QueryOptions& options) {
     return !is_limit(options.max_fraction);
 }
 
-/// What single calls count before they find that nothing is asked.
+/// What single calls count before they find that nothing is asked. Returns how many queries are not finite.
 template <class Scalar>
-void count_only(const Ends<Scalar>& ends, std::size_t count, const BatchOptions& options,
-                std::atomic<std::uint64_t>& invalid_queries) {
+std::size_t count_only(const Segments<Scalar>& segments, const QueryOptions& options) {
     const StandardArithmetic standard;
-    std::uint64_t invalid = 0;
-    for (std::size_t i = 0; i < count; ++i)
-        if (!is_finite(ends, i)) ++invalid;
-    invalid_queries.fetch_add(invalid, std::memory_order_relaxed);
-    if (options.counters != nullptr) add(*options.counters, {.queries = count});
+    std::size_t invalid = 0;
+    for (std::size_t i = 0; i < segments.size(); ++i)
+        if (!is_finite(segments, i)) ++invalid;
+    if (options.counters != nullptr) add(*options.counters, {.queries = segments.size()});
+    return invalid;
 }
 
-void check_sizes(std::size_t from, std::size_t to, std::size_t out) {
-    if (from != to || from != out)
-        throw std::invalid_argument("a batch of " + std::to_string(from) + " starts, " + std::to_string(to) +
-                                    " ends and " + std::to_string(out) + " answers: they must be as many");
+template <class Scalar>
+void check_sizes(const char* call, const Segments<Scalar>& segments, std::size_t out) {
+    const std::size_t starts = segments.starts().size();
+    const std::size_t ends = segments.ends().size();
+    if (starts != ends)
+        throw std::invalid_argument(std::string(call) + ": " + std::to_string(starts) + " starts and " +
+                                    std::to_string(ends) + " ends");
+    if (starts != out)
+        throw std::invalid_argument(std::string(call) + ": " + std::to_string(starts) + " segments and " +
+                                    std::to_string(out) + " places for answers");
 }
 
-template <class Scalar, class Answer>
-std::size_t all_first(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::span<std::optional<Answer>> out,
-                      const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries) {
+template <class Impl, class Scalar>
+std::size_t all_first(const char* call, const Impl& impl, const Segments<Scalar>& segments, const HitsOut<Scalar>& out,
+                      const QueryOptions& options, const Executor& executor) {
+    check_sizes(call, segments, size_of(out));
+    const auto count_invalid = [&](std::size_t count) { impl.count_invalid(count); };
     if (asks_nothing(options)) {
-        std::fill(out.begin(), out.end(), std::nullopt);
-        count_only(ends, out.size(), options, invalid_queries);
+        with_sink(out, [&](const auto& sink) {
+            for (std::size_t i = 0; i < segments.size(); ++i) sink.clear(i);
+        });
+        count_invalid(count_only(segments, options));
         return 0;
     }
-    return in_parts(out.size(), options, invalid_queries,
+    return in_parts(segments.size(), options, executor, count_invalid,
                     [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
-                        return detail::first_hits(scene, ends, first, last, out.data(), options, counters, invalid);
+                        return detail::first_hits(impl.scene, segments, first, last, out, options, counters, invalid);
                     });
 }
-
-template <class Scalar>
-std::size_t all_any(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::span<std::uint8_t> out,
-                    const BatchOptions& options, std::atomic<std::uint64_t>& invalid_queries) {
-    if (asks_nothing(options)) {
-        std::fill(out.begin(), out.end(), std::uint8_t{0});
-        count_only(ends, out.size(), options, invalid_queries);
-        return 0;
-    }
-    return in_parts(out.size(), options, invalid_queries,
-                    [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
-                        return detail::any_hits(scene, ends, first, last, out.data(), options, counters, invalid);
-                    });
-}
-
-template <class Scalar>
-Ends<Scalar> ends_of(std::span<const Segment<Scalar>> segments) {
-    static_assert(sizeof(Segment<Scalar>) == 6 * sizeof(Scalar));
-    if (segments.empty()) return {};
-    return {segments[0].from.data(), segments[0].to.data(), 6, 6};
-}
-
-template <class Scalar>
-Ends<Scalar> ends_of(const Points<Scalar>& from, const Points<Scalar>& to) {
-    return {from.data(), to.data(), from.outerStride(), to.outerStride()};
-}
-
-std::size_t columns(const auto& points) { return static_cast<std::size_t>(points.cols()); }
 
 }  // namespace
 
 template <class Scalar>
-std::size_t CollisionMesh<Scalar>::first_hits(std::span<const Segment<Scalar>> segments,
-                                              std::span<std::optional<Hit<Scalar>>> out,
-                                              const BatchOptions& options) const {
-    check_sizes(segments.size(), segments.size(), out.size());
-    return all_first(impl_->scene, ends_of(segments), out, options, impl_->invalid_queries);
+std::size_t CollisionMesh<Scalar>::first_hits(const Segments<Scalar>& segments, const HitsOut<Scalar>& out,
+                                              const QueryOptions& options, const Executor& executor) const {
+    return all_first("first_hits", *impl_, segments, out, options, executor);
 }
 
 template <class Scalar>
-std::size_t CollisionMesh<Scalar>::any_hits(std::span<const Segment<Scalar>> segments, std::span<std::uint8_t> out,
-                                            const BatchOptions& options) const {
-    check_sizes(segments.size(), segments.size(), out.size());
-    return all_any(impl_->scene, ends_of(segments), out, options, impl_->invalid_queries);
+std::size_t CollisionMesh<Scalar>::sweeps(const Segments<Scalar>& steps, const HitsOut<Scalar>& out,
+                                          const QueryOptions& options, const Executor& executor) const {
+    return all_first("sweeps", *impl_, steps, out, options, executor);
 }
 
 template <class Scalar>
-std::size_t CollisionMesh<Scalar>::sweep_points(std::span<const Vec3<Scalar>> from, std::span<const Vec3<Scalar>> to,
-                                                std::span<std::optional<SweepHit<Scalar>>> out,
-                                                const BatchOptions& options) const {
-    check_sizes(from.size(), to.size(), out.size());
-    static_assert(sizeof(Vec3<Scalar>) == 3 * sizeof(Scalar));
-    if (out.empty()) return 0;
-    return all_first(impl_->scene, Ends<Scalar>{from[0].data(), to[0].data(), 3, 3}, out, options,
-                     impl_->invalid_queries);
+std::size_t CollisionMesh<Scalar>::any_hits(const Segments<Scalar>& segments, std::span<std::uint8_t> out,
+                                            const QueryOptions& options, const Executor& executor) const {
+    check_sizes("any_hits", segments, out.size());
+    const auto count_invalid = [&](std::size_t count) { impl_->count_invalid(count); };
+    if (asks_nothing(options)) {
+        std::fill(out.begin(), out.end(), std::uint8_t{0});
+        count_invalid(count_only(segments, options));
+        return 0;
+    }
+    return in_parts(segments.size(), options, executor, count_invalid,
+                    [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
+                        return detail::any_hits(impl_->scene, segments, first, last, out.data(), options, counters,
+                                                invalid);
+                    });
 }
 
-template <class Scalar>
-std::size_t CollisionMesh<Scalar>::first_hits(const Points<Scalar>& from, const Points<Scalar>& to,
-                                              std::span<std::optional<Hit<Scalar>>> out,
-                                              const BatchOptions& options) const {
-    check_sizes(columns(from), columns(to), out.size());
-    return all_first(impl_->scene, ends_of<Scalar>(from, to), out, options, impl_->invalid_queries);
-}
-
-template <class Scalar>
-std::size_t CollisionMesh<Scalar>::any_hits(const Points<Scalar>& from, const Points<Scalar>& to,
-                                            std::span<std::uint8_t> out, const BatchOptions& options) const {
-    check_sizes(columns(from), columns(to), out.size());
-    return all_any(impl_->scene, ends_of<Scalar>(from, to), out, options, impl_->invalid_queries);
-}
-
-template <class Scalar>
-std::size_t CollisionMesh<Scalar>::sweep_points(const Points<Scalar>& from, const Points<Scalar>& to,
-                                                std::span<std::optional<SweepHit<Scalar>>> out,
-                                                const BatchOptions& options) const {
-    check_sizes(columns(from), columns(to), out.size());
-    return all_first(impl_->scene, ends_of<Scalar>(from, to), out, options, impl_->invalid_queries);
-}
-
-template std::size_t CollisionMesh<float>::first_hits(std::span<const Segment<float>>,
-                                                      std::span<std::optional<Hit<float>>>, const BatchOptions&) const;
-template std::size_t CollisionMesh<float>::any_hits(std::span<const Segment<float>>, std::span<std::uint8_t>,
-                                                    const BatchOptions&) const;
-template std::size_t CollisionMesh<float>::sweep_points(std::span<const Vec3<float>>, std::span<const Vec3<float>>,
-                                                        std::span<std::optional<SweepHit<float>>>,
-                                                        const BatchOptions&) const;
-template std::size_t CollisionMesh<float>::first_hits(const Points<float>&, const Points<float>&,
-                                                      std::span<std::optional<Hit<float>>>, const BatchOptions&) const;
-template std::size_t CollisionMesh<float>::any_hits(const Points<float>&, const Points<float>&, std::span<std::uint8_t>,
-                                                    const BatchOptions&) const;
-template std::size_t CollisionMesh<float>::sweep_points(const Points<float>&, const Points<float>&,
-                                                        std::span<std::optional<SweepHit<float>>>,
-                                                        const BatchOptions&) const;
-
-template std::size_t CollisionMesh<double>::first_hits(std::span<const Segment<double>>,
-                                                       std::span<std::optional<Hit<double>>>,
-                                                       const BatchOptions&) const;
-template std::size_t CollisionMesh<double>::any_hits(std::span<const Segment<double>>, std::span<std::uint8_t>,
-                                                     const BatchOptions&) const;
-template std::size_t CollisionMesh<double>::sweep_points(std::span<const Vec3<double>>, std::span<const Vec3<double>>,
-                                                         std::span<std::optional<SweepHit<double>>>,
-                                                         const BatchOptions&) const;
-template std::size_t CollisionMesh<double>::first_hits(const Points<double>&, const Points<double>&,
-                                                       std::span<std::optional<Hit<double>>>,
-                                                       const BatchOptions&) const;
-template std::size_t CollisionMesh<double>::any_hits(const Points<double>&, const Points<double>&,
-                                                     std::span<std::uint8_t>, const BatchOptions&) const;
-template std::size_t CollisionMesh<double>::sweep_points(const Points<double>&, const Points<double>&,
-                                                         std::span<std::optional<SweepHit<double>>>,
-                                                         const BatchOptions&) const;
+template std::size_t CollisionMesh<float>::first_hits(const Segments<float>&, const HitsOut<float>&, const QueryOptions&,
+                                                  const Executor&) const;
+template std::size_t CollisionMesh<float>::sweeps(const Segments<float>&, const HitsOut<float>&, const QueryOptions&,
+                                              const Executor&) const;
+template std::size_t CollisionMesh<float>::any_hits(const Segments<float>&, std::span<std::uint8_t>, const QueryOptions&,
+                                                const Executor&) const;
+template std::size_t CollisionMesh<double>::first_hits(const Segments<double>&, const HitsOut<double>&, const QueryOptions&,
+                                                  const Executor&) const;
+template std::size_t CollisionMesh<double>::sweeps(const Segments<double>&, const HitsOut<double>&, const QueryOptions&,
+                                              const Executor&) const;
+template std::size_t CollisionMesh<double>::any_hits(const Segments<double>&, std::span<std::uint8_t>, const QueryOptions&,
+                                                const Executor&) const;
 
 }  // namespace pierce
