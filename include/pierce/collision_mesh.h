@@ -17,6 +17,7 @@
 #include <pierce/mesh_report.h>
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
+#include <pierce/result.h>
 #include <pierce/types.h>
 
 namespace pierce {
@@ -52,6 +53,9 @@ class CollisionMesh {
     /// when there are more than 2^32 - 2 vertices or 2^28 - 1 triangles; std::invalid_argument where a name or number
     /// of an option has no meaning. A mesh without triangles is fine, and is never hit.
     explicit CollisionMesh(const MeshView<Scalar>& mesh, const BuildOptions& options = {});
+    /// The same without exceptions: an empty mesh, a status and the exception's text where the constructor throws.
+    [[nodiscard]] static Result<CollisionMesh> try_make(const MeshView<Scalar>& mesh,
+                                                        const BuildOptions& options = {}) noexcept;
     /// A mesh without triangles, as one that was moved from is: it is never hit, and counts nothing. Allocates nothing.
     CollisionMesh() noexcept;
     /// The same, for `CollisionMesh<float> mesh({{}, {}})`, which could mean a view or a mesh.

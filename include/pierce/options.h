@@ -25,8 +25,8 @@ struct BuildOptions {
     /// Building throws std::invalid_argument where PIERCE_BROADPHASE is another word.
     Broadphase broadphase = Broadphase::automatic;
     /// For the grid: the edge of a cell. Zero leaves it to the library, which looks at the triangles' sizes. It grows
-    /// where the grid would take more memory than `max_grid_bytes`. Building throws MeshError for what is negative or
-    /// not a number.
+    /// where the grid would take more memory than `max_grid_bytes`. Building throws std::invalid_argument for what
+    /// is negative or not a number.
     double cell_size = 0;
     /// For the grid: an upper bound for its memory, kept by larger cells, down to what one cell for all needs. Zero
     /// stands for a multiple of the triangles' number.

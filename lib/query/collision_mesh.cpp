@@ -11,6 +11,7 @@
 #include <query/collision_mesh_impl.h>
 #include <query/engine.h>
 #include <query/mesh_report.h>
+#include <without_exceptions.h>
 
 namespace pierce {
 
@@ -51,6 +52,15 @@ template <class Scalar>
 CollisionMesh<Scalar>::CollisionMesh(const MeshView<Scalar>& mesh, const BuildOptions& options) : impl_(new Impl) {
     const StandardArithmetic standard;
     impl_->scene = make_scene(mesh, options);
+}
+
+template <class Scalar>
+Result<CollisionMesh<Scalar>> CollisionMesh<Scalar>::try_make(const MeshView<Scalar>& mesh,
+                                                              const BuildOptions& options) noexcept {
+    Result<CollisionMesh> result;
+    result.status = without_exceptions([&] { result.value = CollisionMesh(mesh, options); }, Status::bad_mesh,
+                                       result.message);
+    return result;
 }
 
 template <class Scalar>

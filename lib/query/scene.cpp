@@ -110,7 +110,8 @@ Scene<Scalar> make_scene(const MeshView<Scalar>& view, const BuildOptions& optio
     const PlainMesh<Scalar>& mesh = plain.mesh();
     check_mesh(mesh, executor);
     if (!(options.cell_size >= 0))
-        throw MeshError("BuildOptions::cell_size is " + std::to_string(options.cell_size) + ", and must be 0 or more");
+        throw std::invalid_argument("BuildOptions::cell_size is " + std::to_string(options.cell_size) +
+                                    ", and must be 0 or more");
     Scene<Scalar> scene;
     scene.broadphase = choose_broadphase(options.broadphase);
     scene.backend = &choose_backend(options.backend);
