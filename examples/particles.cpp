@@ -65,13 +65,13 @@ struct Particle {
 bool step(Particle& particle, const pierce::CollisionMesh<double>& mesh, const Vec3& gravity, double seconds) {
     particle.velocity += gravity * seconds;
     const Vec3 target = particle.position + particle.velocity * seconds;
-    const auto hit = mesh.sweep(particle.position, target, {.sides = pierce::Sides::back});
+    const auto hit = mesh.sweep({particle.position, target}, {.sides = pierce::Sides::back});
     if (!hit) {
         particle.position = target;
         return false;
     }
     particle.position = hit->point;
-    particle.velocity -= 2 * particle.velocity.dot(hit->normal) * hit->normal;
+    particle.velocity -= 2 * hit->normal.dot(particle.velocity) * hit->normal;
     return true;
 }
 

@@ -4,12 +4,15 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include <pierce/batch.h>
+#include <pierce/executor.h>
 #include <pierce/explain.h>
 #include <pierce/export.h>
 #include <pierce/hit.h>
@@ -19,6 +22,7 @@
 #include <pierce/options.h>
 #include <pierce/passage.h>
 #include <pierce/ray.h>
+#include <pierce/result.h>
 #include <pierce/types.h>
 
 namespace pierce {
@@ -34,14 +38,10 @@ struct MeshStatistics {
     std::size_t nodes = 0;           ///< of the tree; 0 with a grid
     double cell_size = 0;            ///< of the grid; 0 with a tree
     std::size_t grid_references = 0; ///< entries of all its cell lists together
-    std::string_view backend;        ///< the instruction set of the wide kernels
-    std::size_t bytes = 0;
+    std::string_view backend;        ///< the instruction set of the wide kernels; empty if nothing was built
+    std::size_t bytes = 0;           ///< 0 if nothing was built
     std::uint64_t invalid_queries = 0; ///< queries so far with a coordinate that is NaN or infinite: they had no hit
 };
-
-/// Points as the columns of a matrix; a block or a map of one as well, if its columns are contiguous.
-template <class Scalar>
-using Points = Eigen::Ref<const Eigen::Matrix<Scalar, 3, Eigen::Dynamic>, 0, Eigen::OuterStride<>>;
 
 /// Triangles in a broadphase (`BuildOptions`). Copies what it needs of the mesh.
 ///
@@ -58,9 +58,16 @@ class PIERCE_EXPORT CollisionMesh {
     /// when there are more than 2^32 - 2 vertices or 2^28 - 1 triangles; std::invalid_argument where a name or number
     /// of an option has no meaning. A mesh without triangles is fine, and is never hit.
     explicit CollisionMesh(const MeshView<Scalar>& mesh, const BuildOptions& options = {});
+    /// The same without exceptions: an empty mesh, a status and the exception's text where the constructor throws.
+    [[nodiscard]] static Result<CollisionMesh> try_make(const MeshView<Scalar>& mesh,
+                                                        const BuildOptions& options = {}) noexcept;
+    /// A mesh without triangles, as one that was moved from is: it is never hit, and counts nothing. Allocates nothing.
+    CollisionMesh() noexcept;
+    /// The same, for `CollisionMesh<float> mesh({{}, {}})`, which could mean a view or a mesh.
+    CollisionMesh(std::initializer_list<std::nullptr_t>) noexcept : CollisionMesh() {}
     ~CollisionMesh();
-    CollisionMesh(CollisionMesh&&) noexcept;
-    CollisionMesh& operator=(CollisionMesh&&) noexcept;
+    CollisionMesh(CollisionMesh&& other) noexcept;
+    CollisionMesh& operator=(CollisionMesh&& other) noexcept;
     CollisionMesh(const CollisionMesh&) = delete;
     CollisionMesh& operator=(const CollisionMesh&) = delete;
 
@@ -74,7 +81,8 @@ class PIERCE_EXPORT CollisionMesh {
     /// The first `out.size()` hits in order of (fraction, face, triangle), one for each triangle that is hit. Returns
     /// how many there are in all: if that is more than `out.size()`, the last ones were left out. Each point is
     /// verified on its own way from the start, so the time is quadratic in the number of hits kept; with an empty `out`
-    /// they are only counted.
+    /// they are only counted. `exact_fraction` never decreases from one hit to the next, and hits at exactly the same
+    /// fraction have the same bits there.
     std::size_t all_hits(const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
                          const QueryOptions& options = {}) const noexcept;
 
@@ -100,30 +108,28 @@ class PIERCE_EXPORT CollisionMesh {
         return crossings_of_ray(ray, counters);
     }
 
-    /// A point moves in a straight line from `from` to `to` over one step: when and where does it first run into the
-    /// mesh? If the answer is empty it may be moved to `to`; otherwise to the hit's `point`, and never further.
-    [[nodiscard]] std::optional<SweepHit<Scalar>> sweep(const Vec3<Scalar>& from, const Vec3<Scalar>& to,
-                                                        const QueryOptions& options = {}) const noexcept;
+    /// A point moves in a straight line from `step.from` to `step.to`: when and where does it first run into the mesh? If
+    /// the answer is empty it may be moved to `to`; otherwise to the hit's `point`, and never further. The hit's
+    /// `fraction` is the time of impact: the part of the step after which the point is still certainly outside.
+    [[nodiscard]] std::optional<Hit<Scalar>> sweep(const Segment<Scalar>& step,
+                                                   const QueryOptions& options = {}) const noexcept {
+        return first_hit(step, options);
+    }
 
-    /// Many queries in one call: `out[i]` is what the single query for number i gives, to the last bit, whatever the
-    /// executor and however the queries are cut into calls. With the tree sixteen queries go on together, each while
-    /// others wait for memory; where it has more than 16 nodes on a path, one after the other. Returns the number of
-    /// hits. Allocates nothing. `out` must be as long as the queries are many; if it is not, std::invalid_argument is
-    /// thrown.
-    std::size_t first_hits(std::span<const Segment<Scalar>> segments, std::span<std::optional<Hit<Scalar>>> out,
-                           const BatchOptions& options = {}) const;
-    std::size_t any_hits(std::span<const Segment<Scalar>> segments, std::span<std::uint8_t> out,
-                         const BatchOptions& options = {}) const;
-    std::size_t sweep_points(std::span<const Vec3<Scalar>> from, std::span<const Vec3<Scalar>> to,
-                             std::span<std::optional<SweepHit<Scalar>>> out, const BatchOptions& options = {}) const;
-
-    /// The same for points as the columns of matrices, which may be blocks or maps of others.
-    std::size_t first_hits(const Points<Scalar>& from, const Points<Scalar>& to,
-                           std::span<std::optional<Hit<Scalar>>> out, const BatchOptions& options = {}) const;
-    std::size_t any_hits(const Points<Scalar>& from, const Points<Scalar>& to, std::span<std::uint8_t> out,
-                         const BatchOptions& options = {}) const;
-    std::size_t sweep_points(const Points<Scalar>& from, const Points<Scalar>& to,
-                             std::span<std::optional<SweepHit<Scalar>>> out, const BatchOptions& options = {}) const;
+    /// Many queries in one call: answer i is what the single query for number i gives, to the last bit, whatever the
+    /// executor and however the queries are cut into calls. With an executor they are answered in parallel, in parts of
+    /// a thousand or so. With the tree sixteen queries go on together, each while others wait for memory; where it has
+    /// more than 16 nodes on a path, one after the other. Returns the number of hits. Allocates nothing.
+    ///
+    /// Throws std::invalid_argument, naming the call and both lengths, where there are not as many starts as ends, or
+    /// not as many places for answers as segments; nothing is written then. A program without exceptions ends there.
+    std::size_t first_hits(const Segments<Scalar>& segments, const HitsOut<Scalar>& out,
+                           const QueryOptions& options = {}, const Executor& executor = {}) const;
+    std::size_t sweeps(const Segments<Scalar>& steps, const HitsOut<Scalar>& out, const QueryOptions& options = {},
+                       const Executor& executor = {}) const;
+    /// An answer is 1 or 0.
+    std::size_t any_hits(const Segments<Scalar>& segments, std::span<std::uint8_t> out,
+                         const QueryOptions& options = {}, const Executor& executor = {}) const;
 
     /// How often the segment passes through the surface: +1 for each crossing from the front to the back of a face, -1
     /// for each from back to front. Another rule than that for hits: the ends are taken as moved by an infinitesimal
@@ -154,28 +160,50 @@ class PIERCE_EXPORT CollisionMesh {
                                   QueryCounters* counters = nullptr) const noexcept;
 
     /// Many questions in one call: `out[i]` is what the single call for number i gives, to the last bit, whatever the
-    /// executor. With the tree sixteen queries go on together, as in `first_hits`. `out` must be as long as the questions
-    /// are many; if it is not, std::invalid_argument is thrown.
+    /// executor. With the tree sixteen queries go on together, as in `first_hits`, and lengths that differ are an error
+    /// in the same way.
     ///
     /// Returns the number of points that are contained; `out[i]` is 1 for these, else 0. Points that are given in no
     /// order are sorted first: then this one and `winding_numbers` take 16 bytes of memory a point while they run, 16 MiB
     /// at most. The others allocate nothing.
-    std::size_t contains_points(std::span<const Vec3<Scalar>> points, std::span<std::uint8_t> out,
-                                const PlainBatchOptions& options = {}) const;
-    void winding_numbers(std::span<const Vec3<Scalar>> points, std::span<int> out,
-                         const PlainBatchOptions& options = {}) const;
+    std::size_t contains_points(const PointsView<Scalar>& points, std::span<std::uint8_t> out,
+                                QueryCounters* counters = nullptr, const Executor& executor = {}) const;
+    void winding_numbers(const PointsView<Scalar>& points, std::span<int> out, QueryCounters* counters = nullptr,
+                         const Executor& executor = {}) const;
     /// Returns the number of points that are on the surface.
-    std::size_t locate_points(std::span<const Vec3<Scalar>> points, std::span<Location> out,
-                              const PlainBatchOptions& options = {}) const;
-    void crossings(std::span<const Segment<Scalar>> segments, std::span<int> out,
-                   const PlainBatchOptions& options = {}) const;
+    std::size_t locate_points(const PointsView<Scalar>& points, std::span<Location> out,
+                              QueryCounters* counters = nullptr, const Executor& executor = {}) const;
+    void crossings(const Segments<Scalar>& segments, std::span<int> out, QueryCounters* counters = nullptr,
+                   const Executor& executor = {}) const;
 
     /// All hits of many segments as compressed rows: those of segment i, in order, are `hits[offsets[i]]` up to
     /// `hits[offsets[i + 1]]`, without that. `offsets` must be one longer than `segments`. Returns how many hits there
     /// are in all, `offsets.back()`. The hits of a segment are written if all of them fit: call with no `hits` to learn
     /// how many there are, which is much faster than writing them, make room, and call again. Allocates nothing.
-    std::size_t all_hits(std::span<const Segment<Scalar>> segments, std::span<std::size_t> offsets,
-                         std::span<Hit<Scalar>> hits, const BatchOptions& options = {}) const;
+    std::size_t all_hits(const Segments<Scalar>& segments, std::span<std::size_t> offsets, std::span<Hit<Scalar>> hits,
+                         const QueryOptions& options = {}, const Executor& executor = {}) const;
+
+    /// Batches of rays: `first_hits(Rays(origins, directions), out)`.
+    template <std::same_as<Rays<Scalar>> Batch>
+    std::size_t first_hits(const Batch& rays, const HitsOut<Scalar>& out, const QueryOptions& options = {},
+                           const Executor& executor = {}) const {
+        return first_hits_of_rays(rays, out, options, executor);
+    }
+    template <std::same_as<Rays<Scalar>> Batch>
+    std::size_t any_hits(const Batch& rays, std::span<std::uint8_t> out, const QueryOptions& options = {},
+                         const Executor& executor = {}) const {
+        return any_hits_of_rays(rays, out, options, executor);
+    }
+    template <std::same_as<Rays<Scalar>> Batch>
+    void crossings(const Batch& rays, std::span<int> out, QueryCounters* counters = nullptr,
+                   const Executor& executor = {}) const {
+        crossings_of_rays(rays, out, counters, executor);
+    }
+    template <std::same_as<Rays<Scalar>> Batch>
+    std::size_t all_hits(const Batch& rays, std::span<std::size_t> offsets, std::span<Hit<Scalar>> hits,
+                         const QueryOptions& options = {}, const Executor& executor = {}) const {
+        return all_hits_of_rays(rays, offsets, hits, options, executor);
+    }
 
     /// Why each face near the segment is its first hit or is not, in the order of triangles. Near are those whose box
     /// is no further from the segment's, along each axis, than that is long along its longest. For debugging: it looks
@@ -198,9 +226,20 @@ class PIERCE_EXPORT CollisionMesh {
     std::size_t all_hits_of_ray(const Ray<Scalar>& ray, std::span<Hit<Scalar>> out,
                                 const QueryOptions& options) const noexcept;
     int crossings_of_ray(const Ray<Scalar>& ray, QueryCounters* counters) const noexcept;
+    std::size_t first_hits_of_rays(const Rays<Scalar>& rays, const HitsOut<Scalar>& out, const QueryOptions& options,
+                                   const Executor& executor) const;
+    std::size_t any_hits_of_rays(const Rays<Scalar>& rays, std::span<std::uint8_t> out, const QueryOptions& options,
+                                 const Executor& executor) const;
+    void crossings_of_rays(const Rays<Scalar>& rays, std::span<int> out, QueryCounters* counters,
+                           const Executor& executor) const;
+    std::size_t all_hits_of_rays(const Rays<Scalar>& rays, std::span<std::size_t> offsets, std::span<Hit<Scalar>> hits,
+                                 const QueryOptions& options, const Executor& executor) const;
 
     struct Impl;
-    std::unique_ptr<Impl> impl_;
+    struct Release {
+        void operator()(Impl* impl) const noexcept;
+    };
+    std::unique_ptr<Impl, Release> impl_;  ///< never null: that of a mesh which was not built is shared by all such
 };
 
 extern template class PIERCE_EXPORT CollisionMesh<float>;

@@ -5,6 +5,8 @@
 #include <memory>
 #include <type_traits>
 
+#include <pierce/small_callable.h>
+
 namespace pierce {
 
 /// A reference to work in numbered parts: `task(i)` does part i. Not owned. Parts may run at the same time; none
@@ -24,31 +26,33 @@ class Task {
     void (*call_)(void*, std::size_t);
 };
 
-/// A reference to something that runs a task: `executor(parts, task)` calls `task(i)` once for each i below `parts`, in
-/// any order and on any threads, and returns when all are done. Not owned. One that is empty runs the parts one after
-/// another.
-/// Answers don't depend on it, not in one bit. `pierce/tbb.h` has one for oneTBB.
+/// Something that runs a task: `executor(parts, task)` calls `task(i)` once for each i below `parts`, in any order and
+/// on any threads, and returns when all are done. One that is empty runs the parts one after another. Answers don't
+/// depend on it, not in one bit. `pierce/tbb.h` has one for oneTBB.
+///
+/// It keeps what it is made of: a function pointer, or a lambda or other object of up to four pointers that is copied
+/// byte by byte and does not change when it is called. What is larger, owns memory or changes is refused by the compiler
+/// unless it is wrapped in `std::ref`; then it has to live as long as the executor is used.
 class Executor {
+    using Kept = detail::SmallCallable<void(std::size_t, Task)>;
+
   public:
     Executor() = default;
     template <class Callable>
-        requires(!std::is_same_v<std::remove_cvref_t<Callable>, Executor> &&
-                 std::is_invocable_v<Callable&, std::size_t, Task>)
-    Executor(Callable&& callable)
-        : callable_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
-          call_([](void* c, std::size_t parts, Task task) {
-              (*static_cast<std::remove_reference_t<Callable>*>(c))(parts, task);
-          }) {}
+        requires(Kept::keeps<Callable>)
+    Executor(const Callable& callable) : kept_(callable) {}
+    template <class Callable>
+        requires(!Kept::keeps<Callable> && std::is_invocable_v<Callable&, std::size_t, Task>)
+    Executor(const Callable&) = delete;  // too large, not trivially copyable, or changing: wrap it in std::ref
 
-    explicit operator bool() const { return call_ != nullptr; }
+    explicit operator bool() const { return static_cast<bool>(kept_); }
     void operator()(std::size_t parts, Task task) const {
-        if (call_ != nullptr && parts > 1) return call_(callable_, parts, task);
+        if (kept_ && parts > 1) return kept_(parts, task);
         for (std::size_t i = 0; i < parts; ++i) task(i);
     }
 
   private:
-    void* callable_ = nullptr;
-    void (*call_)(void*, std::size_t, Task) = nullptr;
+    Kept kept_;
 };
 
 }  // namespace pierce

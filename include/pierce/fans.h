@@ -89,7 +89,7 @@ inline void chain(std::uint32_t apex, const std::vector<Wedge>& wedges, std::vec
 /// Whether any corner will do as the apex: rounding, and a limit on lengths, may tell them apart.
 template <class Scalar>
 [[nodiscard]] bool has_bases(const MeshView<Scalar>& mesh, const IndexTriple& t) {
-    const auto at = [&](std::size_t k) -> const Vec3<Scalar>& { return mesh.positions[t[k % 3]]; };
+    const auto at = [&](std::size_t k) -> Vec3<Scalar> { return mesh.positions[t[k % 3]]; };
     for (std::size_t k = 0; k < 3; ++k)
         if (!kernels::TriangleFan::has_basis<Scalar>(at(k), at(k + 1), at(k + 2))) return false;
     return true;

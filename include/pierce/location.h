@@ -44,12 +44,4 @@ struct Location {
     std::size_t face_count = 0;
 };
 
-/// For many questions in one call that have no choice of faces.
-struct PlainBatchOptions {
-    /// Adds up what the queries went through, if given.
-    QueryCounters* counters = nullptr;
-    /// Answers in parallel, if given: parts of a thousand queries or so.
-    Executor executor = {};
-};
-
 }  // namespace pierce

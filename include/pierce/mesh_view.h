@@ -2,14 +2,78 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
+#include <iterator>
 #include <span>
 
 #include <pierce/mesh_error.h>
+#include <pierce/points_view.h>
 #include <pierce/types.h>
 
 namespace pierce {
 
-/// Positions and index triples, not owned. It has to stay alive only while a `CollisionMesh` is built from it.
+/// The corners of `size()` triangles, as indices of 32 or 16 bits: three in a row, and from one triangle to the next a
+/// fixed number of bytes. A `std::vector<IndexTriple>`, the flat index buffer of a game (a list, not a strip), or a part
+/// of either. Not owned, nothing is copied.
+class TrianglesView {
+  public:
+    TrianglesView() = default;
+
+    /// `stride`: bytes from one triangle's first index to the next one's. They need no alignment.
+    TrianglesView(const std::uint32_t* first, std::size_t size, std::ptrdiff_t stride = 3 * sizeof(std::uint32_t))
+        : first_(reinterpret_cast<const std::byte*>(first)), size_(size), stride_(stride) {}
+    TrianglesView(const std::uint16_t* first, std::size_t size, std::ptrdiff_t stride = 3 * sizeof(std::uint16_t))
+        : first_(reinterpret_cast<const std::byte*>(first)), size_(size), stride_(stride), short_(true) {}
+
+    template <detail::SpanOf<IndexTriple> Range>
+    TrianglesView(const Range& triangles)
+        : TrianglesView(reinterpret_cast<const std::uint32_t*>(std::data(triangles)), std::size(triangles)) {}
+    template <detail::SpanOf<std::array<std::uint16_t, 3>> Range>
+    TrianglesView(const Range& triangles)
+        : TrianglesView(reinterpret_cast<const std::uint16_t*>(std::data(triangles)), std::size(triangles)) {}
+
+    /// Three indices a triangle. Building refuses a mesh that has some left.
+    template <detail::SpanOf<std::uint32_t> Range>
+    TrianglesView(const Range& indices) : TrianglesView(std::data(indices), std::size(indices) / 3) {
+        left_over_ = std::size(indices) % 3;
+    }
+    template <detail::SpanOf<std::uint16_t> Range>
+    TrianglesView(const Range& indices) : TrianglesView(std::data(indices), std::size(indices) / 3) {
+        left_over_ = std::size(indices) % 3;
+    }
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] bool empty() const { return size_ == 0; }
+    [[nodiscard]] std::ptrdiff_t stride() const { return stride_; }
+    /// Where the first index is; null where indices have 16 bits.
+    [[nodiscard]] const std::uint32_t* data() const {
+        return short_ ? nullptr : reinterpret_cast<const std::uint32_t*>(first_);
+    }
+    /// How many indices of a flat array are too many for whole triangles, and too few for one more.
+    [[nodiscard]] std::size_t left_over() const { return left_over_; }
+    [[nodiscard]] IndexTriple operator[](std::size_t i) const {
+        return short_ ? load<std::uint16_t>(i) : load<std::uint32_t>(i);
+    }
+
+  private:
+    template <class Index>
+    [[nodiscard]] IndexTriple load(std::size_t i) const {
+        Index indices[3];
+        std::memcpy(indices, first_ + static_cast<std::ptrdiff_t>(i) * stride_, sizeof indices);
+        return {indices[0], indices[1], indices[2]};
+    }
+
+    const std::byte* first_ = nullptr;
+    std::size_t size_ = 0;
+    std::ptrdiff_t stride_ = 3 * sizeof(std::uint32_t);
+    std::size_t left_over_ = 0;
+    bool short_ = false;
+};
+
+/// Positions and triangles, not owned. It has to stay alive only while a `CollisionMesh` is built from it.
+///
+///     MeshView<float>{positions, triangles}                     // vectors of Vec3<float> and IndexTriple
+///     MeshView<float>{{&vertices[0].x, vertices.size(), sizeof(Vertex)}, indices}     // the buffers of a game
 ///
 /// The mesh may be open, non-manifold, self-intersecting, and may hold zero-area or duplicate triangles: all are kept.
 /// `faces`, if it is not empty, gives for each triangle the number that the caller knows it by (the polygon of a file
@@ -19,8 +83,8 @@ template <class Scalar>
 struct MeshView {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
 
-    std::span<const Vec3<Scalar>> positions;
-    std::span<const IndexTriple> triangles;
+    PointsView<Scalar> positions;
+    TrianglesView triangles;
     std::span<const std::uint32_t> faces = {};
 
     [[nodiscard]] std::uint32_t face_of(std::size_t triangle) const {

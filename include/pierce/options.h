@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -26,8 +25,8 @@ struct BuildOptions {
     /// Building throws std::invalid_argument where PIERCE_BROADPHASE is another word.
     Broadphase broadphase = Broadphase::automatic;
     /// For the grid: the edge of a cell. Zero leaves it to the library, which looks at the triangles' sizes. It grows
-    /// where the grid would take more memory than `max_grid_bytes`. Building throws MeshError for what is negative or
-    /// not a number.
+    /// where the grid would take more memory than `max_grid_bytes`. Building throws std::invalid_argument for what
+    /// is negative or not a number.
     double cell_size = 0;
     /// For the grid: an upper bound for its memory, kept by larger cells, down to what one cell for all needs. Zero
     /// stands for a multiple of the triangles' number.
@@ -66,50 +65,50 @@ struct Contact {
     Vec3<double> barycentric;
 };
 
-/// A reference to something that is called with a `Contact` and says whether it counts: a lambda, say, that looks up a
-/// texture. It is not owned, and must outlive the query; a temporary lambda in the call itself does.
+/// Something that is called with a `Contact` and says whether it counts: a lambda, say, that looks up a texture.
+///
+/// It keeps what it is made of: a function pointer, or a lambda or other object of up to four pointers that is copied
+/// byte by byte and does not change when it is called. What is larger, owns memory or changes is refused by the compiler
+/// unless it is wrapped in `std::ref`; then it has to live as long as the options are used, as does what a lambda
+/// captures by reference.
 ///
 /// It may be asked about the same face more than once, also for the shortened segment to the point that is being
 /// verified, so its answer must depend on the contact only. It must not throw.
 class Accept {
+    using Kept = detail::SmallCallable<bool(const Contact&)>;
+
   public:
     Accept() = default;
     template <class Callable>
-        requires(!std::is_same_v<std::remove_cvref_t<Callable>, Accept> &&
-                 std::is_invocable_r_v<bool, Callable&, const Contact&>)
-    Accept(Callable&& callable)
-        : callable_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
-          call_([](void* c, const Contact& contact) -> bool {
-              return (*static_cast<std::remove_reference_t<Callable>*>(c))(contact);
-          }) {}
+        requires(Kept::keeps<Callable>)
+    Accept(const Callable& callable) : kept_(callable) {}
+    template <class Callable>
+        requires(!Kept::keeps<Callable> && std::is_invocable_r_v<bool, Callable&, const Contact&>)
+    Accept(const Callable&) = delete;  // too large, not trivially copyable, or changing: wrap it in std::ref
 
-    explicit operator bool() const { return call_ != nullptr; }
-    bool operator()(const Contact& contact) const { return call_(callable_, contact); }
+    explicit operator bool() const { return static_cast<bool>(kept_); }
+    bool operator()(const Contact& contact) const { return kept_(contact); }
 
   private:
-    void* callable_ = nullptr;
-    bool (*call_)(void*, const Contact&) = nullptr;
+    Kept kept_;
 };
 
-/// Every choice is applied to each hit before the first one is looked for, so what does not count hides nothing behind
-/// it.
+/// For a single query or a batch of them. A hit that an option leaves out hides nothing behind it: the answer is as if
+/// it were not there.
 struct QueryOptions {
-    /// The side that a segment must come from to hit a triangle.
+    /// The side that a segment must come from to hit a triangle. The front by default: a closed mesh is left and entered
+    /// then by one rule that has no exceptions, and the physics engines that take one-sided meshes (PhysX, Jolt, Unity)
+    /// have the same default; Embree, Bullet and Godot count both. A mesh whose triangles are clockwise seen from outside
+    /// needs `back`, and one that is open, or of mixed orientation, `both`.
     Sides sides = Sides::front;
     /// Only hits whose exact fraction, or t of a ray, is at most this count. NaN: no hit.
     double max_fraction = std::numeric_limits<double>::infinity();
     /// If it is not empty, only faces count whose number is a place in it that is not 0.
     std::span<const std::uint8_t> face_mask = {};
-    /// If given, only hits count that it says yes to.
+    /// If given, only hits count that it says yes to. In a batch with an executor it is called from that one's threads.
     Accept accept = {};
-    /// Adds up what the query went through, if given.
+    /// Adds up what the query, or the batch, went through, if given.
     QueryCounters* counters = nullptr;
-};
-
-/// For many queries in one call. With an executor, `accept` is called from its threads.
-struct BatchOptions : QueryOptions {
-    /// Answers in parallel, if given: parts of a thousand queries or so.
-    Executor executor = {};
 };
 
 }  // namespace pierce

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include <pierce/location.h>
+#include <pierce/coordinates.h>
 #include <pierce/options.h>
 #include <pierce/types.h>
 
@@ -51,9 +52,9 @@ struct Passage {
     /// Where along the segment, in [0, 1], within 1 ulp; in order, and exactly 0 and 1 at the segment's ends.
     Scalar fraction;
     /// The true point, each coordinate rounded correctly. Not verified: it may lie on either side of the surface.
-    Vec3<Scalar> position;
+    Coordinates<Scalar> position;
     /// Unit normal of `face`, pointing to its front. Each component within 4 ulp of 1.
-    Vec3<Scalar> normal;
+    Coordinates<Scalar> normal;
     /// The face that stands for all of them: that of the smallest number (`MeshView::faces`), then triangle, among those
     /// that are passed from the front where the passage enters, from the back where it leaves.
     std::uint32_t face;

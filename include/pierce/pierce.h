@@ -5,13 +5,15 @@
 //   if (auto hit = level.first_hit({from, to}))                 // from, to: Eigen::Vector3d
 //       particle = hit->point;                                  // safe to stand on, safe to step from
 //
-// Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, location.h,
-// passage.h, collision_mesh.h.
+// Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, ray.h, location.h, passage.h, batch.h,
+// collision_mesh.h; result.h for programs without exceptions.
 // <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single
 // triangles.
 #pragma once
 
+#include <pierce/batch.h>
 #include <pierce/collision_mesh.h>
+#include <pierce/executor.h>
 #include <pierce/hit.h>
 #include <pierce/location.h>
 #include <pierce/mesh_error.h>
@@ -19,6 +21,8 @@
 #include <pierce/options.h>
 #include <pierce/passage.h>
 #include <pierce/ray.h>
+#include <pierce/result.h>
 #include <pierce/triangle_soup.h>
+#include <pierce/try_read_mesh.h>
 #include <pierce/types.h>
 #include <pierce/version.h>

@@ -17,13 +17,10 @@ struct TbbLoop {
     }
 };
 
-// An executor is a reference: this is what it refers to, for as long as the program runs.
-inline constexpr TbbLoop k_tbb_loop{};
-
 }  // namespace detail
 
-/// For `BuildOptions::executor` and `BatchOptions::executor`; may be kept. It works in the task arena of the thread
-/// that calls it, so `tbb::task_arena` and `tbb::global_control` say how many threads there are.
-[[nodiscard]] inline Executor tbb_executor() { return Executor(detail::k_tbb_loop); }
+/// For builds and batches. It works in the task arena of the thread that calls it, so `tbb::task_arena` and
+/// `tbb::global_control` say how many threads there are.
+[[nodiscard]] inline Executor tbb_executor() { return detail::TbbLoop{}; }
 
 }  // namespace pierce

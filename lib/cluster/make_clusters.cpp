@@ -100,7 +100,7 @@ void join(std::vector<Part<Scalar>>& parts, ClusterBuild<Scalar>& build, const E
 }  // namespace
 
 template <class Scalar>
-ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero_area)(const Corners&),
+ClusterBuild<Scalar> make_clusters(const PlainMesh<Scalar>& mesh, bool (*has_zero_area)(const Corners&),
                                    const Executor& executor) {
     ClusterBuild<Scalar> build;
     const std::size_t count = mesh.triangles.size();
@@ -138,7 +138,7 @@ ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero
     return build;
 }
 
-template ClusterBuild<float> make_clusters(const MeshView<float>&, bool (*)(const Corners&), const Executor&);
-template ClusterBuild<double> make_clusters(const MeshView<double>&, bool (*)(const Corners&), const Executor&);
+template ClusterBuild<float> make_clusters(const PlainMesh<float>&, bool (*)(const Corners&), const Executor&);
+template ClusterBuild<double> make_clusters(const PlainMesh<double>&, bool (*)(const Corners&), const Executor&);
 
 }  // namespace pierce::detail

@@ -6,7 +6,7 @@
 
 #include <cluster/clusters.h>
 #include <pierce/executor.h>
-#include <pierce/mesh_view.h>
+#include <plain_mesh.h>
 
 namespace pierce::detail {
 
@@ -29,7 +29,7 @@ struct ClusterBuild {
 /// record behind the last needs a place as well). `has_zero_area` decides exactly where floating point cannot. Throws
 /// only std::bad_alloc.
 template <class Scalar>
-[[nodiscard]] ClusterBuild<Scalar> make_clusters(const MeshView<Scalar>& mesh, bool (*has_zero_area)(const Corners&),
+[[nodiscard]] ClusterBuild<Scalar> make_clusters(const PlainMesh<Scalar>& mesh, bool (*has_zero_area)(const Corners&),
                                                  const Executor& executor);
 
 }  // namespace pierce::detail

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include <cluster/quad.h>
-#include <pierce/mesh_view.h>
+#include <plain_mesh.h>
 
 namespace pierce::detail {
 
@@ -15,7 +15,7 @@ namespace pierce::detail {
 template <class Scalar>
 class CornerReader {
   public:
-    explicit CornerReader(const MeshView<Scalar>& mesh)
+    explicit CornerReader(const PlainMesh<Scalar>& mesh)
         : positions_(mesh.positions.data()),
           triangles_(mesh.triangles.data()),
           last_(static_cast<std::uint32_t>(mesh.positions.size() - 1)) {}

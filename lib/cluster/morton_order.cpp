@@ -14,7 +14,7 @@ namespace pierce::detail {
 namespace {
 
 template <class Scalar>
-QuadBox<Scalar> box_of_positions(const MeshView<Scalar>& mesh, const CornerReader<Scalar>& reader,
+QuadBox<Scalar> box_of_positions(const PlainMesh<Scalar>& mesh, const CornerReader<Scalar>& reader,
                                  const Executor& executor) {
     const std::size_t count = mesh.positions.size();
     std::vector<QuadBox<Scalar>> boxes(chunks_of(count));
@@ -58,7 +58,7 @@ QuadBox<Scalar> make_keys(const CornerReader<Scalar>& reader, const QuadBox<Scal
 }  // namespace
 
 template <class Scalar>
-MortonOrder<Scalar> morton_order(const MeshView<Scalar>& mesh, const Executor& executor) {
+MortonOrder<Scalar> morton_order(const PlainMesh<Scalar>& mesh, const Executor& executor) {
     const CornerReader<Scalar> reader(mesh);
     MortonOrder<Scalar> order{RawArray<std::uint64_t>(mesh.triangles.size()), {}};
     // Positions are quicker to go through than corners. Where those without a triangle make the box larger, keys are
@@ -76,7 +76,7 @@ MortonOrder<Scalar> morton_order(const MeshView<Scalar>& mesh, const Executor& e
     return order;
 }
 
-template MortonOrder<float> morton_order(const MeshView<float>&, const Executor&);
-template MortonOrder<double> morton_order(const MeshView<double>&, const Executor&);
+template MortonOrder<float> morton_order(const PlainMesh<float>&, const Executor&);
+template MortonOrder<double> morton_order(const PlainMesh<double>&, const Executor&);
 
 }  // namespace pierce::detail

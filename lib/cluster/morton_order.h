@@ -5,7 +5,7 @@
 
 #include <cluster/quad.h>
 #include <pierce/executor.h>
-#include <pierce/mesh_view.h>
+#include <plain_mesh.h>
 #include <raw_array.h>
 
 namespace pierce::detail {
@@ -18,6 +18,6 @@ struct MortonOrder {
 };
 
 template <class Scalar>
-[[nodiscard]] MortonOrder<Scalar> morton_order(const MeshView<Scalar>& mesh, const Executor& executor);
+[[nodiscard]] MortonOrder<Scalar> morton_order(const PlainMesh<Scalar>& mesh, const Executor& executor);
 
 }  // namespace pierce::detail

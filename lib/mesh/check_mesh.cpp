@@ -18,7 +18,7 @@ constexpr std::size_t k_most = std::numeric_limits<std::uint32_t>::max() - 1;
 
 // Whether there is nothing to complain about; what there is, is looked for again one by one.
 template <class Scalar>
-bool is_sound(const MeshView<Scalar>& mesh, const Executor& executor) {
+bool is_sound(const PlainMesh<Scalar>& mesh, const Executor& executor) {
     std::atomic<bool> sound = true;
     const std::size_t vertices = mesh.positions.size();
     const auto each = [&](std::size_t count, auto&& hold) {
@@ -45,7 +45,7 @@ bool is_sound(const MeshView<Scalar>& mesh, const Executor& executor) {
 }  // namespace
 
 template <class Scalar>
-void check_mesh(const MeshView<Scalar>& mesh, const Executor& executor) {
+void check_mesh(const PlainMesh<Scalar>& mesh, const Executor& executor) {
     if (mesh.positions.size() > k_most || mesh.triangles.size() > k_most)
         throw MeshError("a mesh can have at most 4294967294 vertices and as many triangles");
     if (!mesh.faces.empty() && mesh.faces.size() != mesh.triangles.size())
@@ -62,7 +62,7 @@ void check_mesh(const MeshView<Scalar>& mesh, const Executor& executor) {
                 throw MeshError(index_out_of_range(mesh.face_of(i), std::to_string(corner), mesh.positions.size(), ""));
 }
 
-template void check_mesh(const MeshView<float>&, const Executor&);
-template void check_mesh(const MeshView<double>&, const Executor&);
+template void check_mesh(const PlainMesh<float>&, const Executor&);
+template void check_mesh(const PlainMesh<double>&, const Executor&);
 
 }  // namespace pierce::detail

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <pierce/executor.h>
-#include <pierce/mesh_view.h>
+#include <plain_mesh.h>
 
 namespace pierce::detail {
 
 /// Throws `MeshError` naming the first vertex that is not finite or face that names a vertex that does not exist.
 template <class Scalar>
-void check_mesh(const MeshView<Scalar>& mesh, const Executor& executor);
+void check_mesh(const PlainMesh<Scalar>& mesh, const Executor& executor);
 
 }  // namespace pierce::detail

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
+#include <utility>
 
 #include <environment.h>
 #include <query/collision_mesh_impl.h>
@@ -11,6 +13,7 @@
 #include <query/locate.h>
 #include <query/mesh_report.h>
 #include <query/passages.h>
+#include <without_exceptions.h>
 
 namespace pierce {
 
@@ -31,19 +34,49 @@ class Counters {
 
 }  // namespace
 
+// Never destroyed: meshes may be used, and moved from, until the very end of a program.
 template <class Scalar>
-CollisionMesh<Scalar>::CollisionMesh(const MeshView<Scalar>& mesh, const BuildOptions& options)
-    : impl_(std::make_unique<Impl>()) {
+typename CollisionMesh<Scalar>::Impl& CollisionMesh<Scalar>::Impl::not_built() noexcept {
+    alignas(Impl) static std::byte room[sizeof(Impl)];
+    static Impl* const impl = ::new (static_cast<void*>(room)) Impl;
+    return *impl;
+}
+
+template <class Scalar>
+void CollisionMesh<Scalar>::Release::operator()(Impl* impl) const noexcept {
+    if (impl->built()) delete impl;
+}
+
+template <class Scalar>
+CollisionMesh<Scalar>::CollisionMesh() noexcept : impl_(&Impl::not_built()) {}
+
+template <class Scalar>
+CollisionMesh<Scalar>::CollisionMesh(const MeshView<Scalar>& mesh, const BuildOptions& options) : impl_(new Impl) {
     const StandardArithmetic standard;
     impl_->scene = make_scene(mesh, options);
 }
 
 template <class Scalar>
+Result<CollisionMesh<Scalar>> CollisionMesh<Scalar>::try_make(const MeshView<Scalar>& mesh,
+                                                              const BuildOptions& options) noexcept {
+    Result<CollisionMesh> result;
+    result.status = without_exceptions([&] { result.value = CollisionMesh(mesh, options); }, Status::bad_mesh,
+                                       result.message);
+    return result;
+}
+
+template <class Scalar>
 CollisionMesh<Scalar>::~CollisionMesh() = default;
 template <class Scalar>
-CollisionMesh<Scalar>::CollisionMesh(CollisionMesh&&) noexcept = default;
+CollisionMesh<Scalar>::CollisionMesh(CollisionMesh&& other) noexcept : CollisionMesh() {
+    impl_.swap(other.impl_);
+}
 template <class Scalar>
-CollisionMesh<Scalar>& CollisionMesh<Scalar>::operator=(CollisionMesh&&) noexcept = default;
+CollisionMesh<Scalar>& CollisionMesh<Scalar>::operator=(CollisionMesh&& other) noexcept {
+    CollisionMesh old(std::move(*this));
+    impl_.swap(other.impl_);
+    return *this;
+}
 
 template <class Scalar>
 std::optional<Hit<Scalar>> CollisionMesh<Scalar>::first_hit(const Segment<Scalar>& segment,
@@ -69,14 +102,6 @@ std::size_t CollisionMesh<Scalar>::all_hits(const Segment<Scalar>& segment, std:
     Counters counters(options.counters);
     if (!impl_->finite(segment.from, segment.to) || !(options.max_fraction >= 0)) return 0;
     return detail::all_hits(impl_->scene, segment, out, options, counters);
-}
-
-template <class Scalar>
-std::optional<SweepHit<Scalar>> CollisionMesh<Scalar>::sweep(const Vec3<Scalar>& from, const Vec3<Scalar>& to,
-                                                             const QueryOptions& options) const noexcept {
-    const std::optional<Hit<Scalar>> hit = first_hit({from, to}, options);
-    if (!hit) return std::nullopt;
-    return SweepHit<Scalar>{*hit, hit->fraction};
 }
 
 template <class Scalar>
@@ -195,6 +220,7 @@ MeshStatistics CollisionMesh<Scalar>::statistics() const noexcept {
     if (scene.grid.cell_count() > 0)  // the one cell of the largest scenes is larger than numbers go
         s.cell_size = std::min(scene.grid.cell_size() / scene.frame.unit, std::numeric_limits<double>::max());
     s.grid_references = scene.grid.reference_count();
+    if (!impl_->built()) return s;
     s.backend = scene.backend->name;
     s.bytes = scene.bytes();
     s.invalid_queries = impl_->invalid_queries.load(std::memory_order_relaxed);

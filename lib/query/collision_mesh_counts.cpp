@@ -1,11 +1,10 @@
 // The façade of batches of counts and places, and of all hits as compressed rows.
 #include <memory>
-#include <stdexcept>
-#include <string>
 
 #include <chunks.h>
 #include <cluster/sort_entries.h>
 #include <environment.h>
+#include <query/batch_sizes.h>
 #include <query/collision_mesh_impl.h>
 #include <query/count_batches.h>
 #include <query/locate.h>
@@ -17,136 +16,159 @@ using namespace detail;
 
 namespace {
 
-void check_size(const char* call, const char* what, std::size_t asked, std::size_t answers) {
-    if (asked == answers) return;
-    throw std::invalid_argument(std::string(call) + ": " + std::to_string(answers) + " places for " +
-                                std::to_string(asked) + " " + what + ": they must be as many");
-}
-
-template <class Scalar>
-PointRows<Scalar> rows_of(std::span<const Vec3<Scalar>> points) {
-    static_assert(sizeof(Vec3<Scalar>) == 3 * sizeof(Scalar));
-    return {points.empty() ? nullptr : points[0].data(), 3};
-}
-
 /// Fewer points are not worth being sorted; so many are at a time.
 constexpr std::size_t k_least_sorted = std::size_t{1} << 12;
 constexpr std::size_t k_most_sorted = std::size_t{1} << 20;
 
 /// Returns the number of points whose winding number is not 0.
-template <class Scalar, class Out>
-std::size_t all_winding(const Scene<Scalar>& scene, std::span<const Vec3<Scalar>> points, std::span<Out> out,
-                        const PlainBatchOptions& options, std::atomic<std::uint64_t>& invalid_queries) {
-    const auto answer = [&](std::span<const Vec3<Scalar>> some, const std::uint64_t* entries, Out* answers) {
-        return in_parts(some.size(), options, invalid_queries,
+template <class Impl, class Scalar, class Out>
+std::size_t all_winding(const Impl& impl, const PointsView<Scalar>& points, std::span<Out> out, QueryCounters* given,
+                        const Executor& executor) {
+    const Scene<Scalar>& scene = impl.scene;
+    const auto answer = [&](const PointsView<Scalar>& some, const std::uint64_t* entries, Out* answers) {
+        return in_parts(some.size(), given, executor, [&](std::size_t count) { impl.count_invalid(count); },
                         [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
-                            return detail::winding_numbers(scene, rows_of(some), entries, first, last, answers,
-                                                           counters, invalid);
+                            return detail::winding_numbers(scene, some, entries, first, last, answers, counters,
+                                                           invalid);
                         });
     };
     const StandardArithmetic standard;
-    if (points.size() < k_least_sorted || are_in_order(scene, rows_of(points), points.size()))
-        return answer(points, nullptr, out.data());
+    if (points.size() < k_least_sorted || are_in_order(scene, points)) return answer(points, nullptr, out.data());
     const std::size_t most = std::min(points.size(), k_most_sorted);
     const auto entries = std::make_unique_for_overwrite<std::uint64_t[]>(2 * most);
     std::size_t hits = 0;
     for (std::size_t begin = 0; begin < points.size(); begin += most) {
-        const std::span<const Vec3<Scalar>> some = points.subspan(begin, std::min(most, points.size() - begin));
-        each_chunk(options.executor, some.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+        const PointsView<Scalar> some = points.part(begin, std::min(most, points.size() - begin));
+        each_chunk(executor, some.size(), [&](std::size_t, std::size_t first, std::size_t last) {
             const StandardArithmetic of_thread;
-            key_points(scene, rows_of(some), first, last, entries.get());
+            key_points(scene, some, first, last, entries.get());
         });
         std::uint64_t* const sorted = entries.get() + most;
-        sort_entries(entries.get(), sorted, some.size(), options.executor);
+        sort_entries(entries.get(), sorted, some.size(), executor);
         hits += answer(some, sorted, out.data() + begin);
     }
     return hits;
 }
 
-}  // namespace
-
-template <class Scalar>
-std::size_t CollisionMesh<Scalar>::contains_points(std::span<const Vec3<Scalar>> points, std::span<std::uint8_t> out,
-                                                   const PlainBatchOptions& options) const {
-    check_size("contains_points", "points", points.size(), out.size());
-    return all_winding(impl_->scene, points, out, options, impl_->invalid_queries);
-}
-
-template <class Scalar>
-void CollisionMesh<Scalar>::winding_numbers(std::span<const Vec3<Scalar>> points, std::span<int> out,
-                                            const PlainBatchOptions& options) const {
-    check_size("winding_numbers", "points", points.size(), out.size());
-    all_winding(impl_->scene, points, out, options, impl_->invalid_queries);
-}
-
-template <class Scalar>
-std::size_t CollisionMesh<Scalar>::locate_points(std::span<const Vec3<Scalar>> points, std::span<Location> out,
-                                                 const PlainBatchOptions& options) const {
-    check_size("locate_points", "points", points.size(), out.size());
-    return in_parts(out.size(), options, impl_->invalid_queries,
-                    [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
-                        return detail::locate(impl_->scene, points.subspan(first, last - first), out.data() + first,
-                                              counters, invalid);
-                    });
-}
-
-template <class Scalar>
-void CollisionMesh<Scalar>::crossings(std::span<const Segment<Scalar>> segments, std::span<int> out,
-                                      const PlainBatchOptions& options) const {
-    check_size("crossings", "segments", segments.size(), out.size());
-    if (segments.empty()) return;
-    const Ends<Scalar> ends{segments[0].from.data(), segments[0].to.data(), 6, 6};
-    in_parts(out.size(), options, impl_->invalid_queries,
+template <class Impl, class Scalar>
+void all_crossings(const Impl& impl, const Ways<Scalar>& ways, std::span<int> out, QueryCounters* given,
+                   const Executor& executor) {
+    in_parts(ways.size(), given, executor, [&](std::size_t count) { impl.count_invalid(count); },
              [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
-                 return detail::crossings(impl_->scene, ends, first, last, out.data(), counters, invalid);
+                 return detail::crossings(impl.scene, ways, first, last, out.data(), counters, invalid);
              });
 }
 
-template <class Scalar>
-std::size_t CollisionMesh<Scalar>::all_hits(std::span<const Segment<Scalar>> segments, std::span<std::size_t> offsets,
-                                            std::span<Hit<Scalar>> hits, const BatchOptions& options) const {
-    check_size("all_hits", "segments and the end of the last", segments.size() + 1, offsets.size());
+template <class Impl, class Scalar>
+std::size_t all_rows(const Impl& impl, const Ways<Scalar>& ways, std::span<std::size_t> offsets,
+                     std::span<Hit<Scalar>> hits, const QueryOptions& options, const Executor& executor) {
     offsets[0] = 0;
     const bool nothing = asks_nothing(options);
-    const auto is_asked = [](const Segment<Scalar>& s) { return s.from.allFinite() && s.to.allFinite(); };
+    const auto hits_of = [&](std::size_t i, std::span<Hit<Scalar>> row, QueryCounters& counters) {
+        return ways.with(i, [&](const auto& way) {
+            return detail::all_hits(impl.scene, way, row, options, counters);
+        });
+    };
     // Each row's length is put where the row ends.
-    in_parts(segments.size(), options, impl_->invalid_queries,
+    in_parts(ways.size(), options.counters, executor, [&](std::size_t count) { impl.count_invalid(count); },
              [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
                  for (std::size_t i = first; i < last; ++i) {
-                     const bool asked = is_asked(segments[i]);
+                     const bool asked = ways.is_valid(i);
                      invalid += asked ? 0 : 1;
-                     offsets[i + 1] = asked && !nothing
-                                          ? detail::all_hits(impl_->scene, segments[i], {}, options, counters)
-                                          : 0;
+                     offsets[i + 1] = asked && !nothing ? hits_of(i, {}, counters) : 0;
                  }
                  return std::size_t{0};
              });
-    for (std::size_t i = 0; i < segments.size(); ++i) offsets[i + 1] += offsets[i];
+    for (std::size_t i = 0; i < ways.size(); ++i) offsets[i + 1] += offsets[i];
     if (hits.empty() || offsets.back() == 0) return offsets.back();
-    std::atomic<std::uint64_t> counted_before = 0;
-    in_parts(segments.size(), options, counted_before,
+    in_parts(ways.size(), options.counters, executor, [](std::size_t) {},
              [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t&) {
                  counters.queries = 0;  // counted before
                  for (std::size_t i = first; i < last && offsets[i + 1] <= hits.size(); ++i) {
                      const std::span row = hits.subspan(offsets[i], offsets[i + 1] - offsets[i]);
-                     if (!row.empty()) detail::all_hits(impl_->scene, segments[i], row, options, counters);
+                     if (!row.empty()) hits_of(i, row, counters);
                  }
                  return std::size_t{0};
              });
     return offsets.back();
 }
 
+}  // namespace
+
+template <class Scalar>
+std::size_t CollisionMesh<Scalar>::contains_points(const PointsView<Scalar>& points, std::span<std::uint8_t> out,
+                                                   QueryCounters* counters, const Executor& executor) const {
+    check_sizes("contains_points", points.size(), "points", out.size(), "places for answers");
+    return all_winding(*impl_, points, out, counters, executor);
+}
+
+template <class Scalar>
+void CollisionMesh<Scalar>::winding_numbers(const PointsView<Scalar>& points, std::span<int> out,
+                                            QueryCounters* counters, const Executor& executor) const {
+    check_sizes("winding_numbers", points.size(), "points", out.size(), "places for answers");
+    all_winding(*impl_, points, out, counters, executor);
+}
+
+template <class Scalar>
+std::size_t CollisionMesh<Scalar>::locate_points(const PointsView<Scalar>& points, std::span<Location> out,
+                                                 QueryCounters* given, const Executor& executor) const {
+    check_sizes("locate_points", points.size(), "points", out.size(), "places for answers");
+    return in_parts(out.size(), given, executor, [&](std::size_t count) { impl_->count_invalid(count); },
+                    [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
+                        return detail::locate(impl_->scene, points.part(first, last - first), out.data() + first,
+                                              counters, invalid);
+                    });
+}
+
+template <class Scalar>
+void CollisionMesh<Scalar>::crossings(const Segments<Scalar>& segments, std::span<int> out, QueryCounters* counters,
+                                      const Executor& executor) const {
+    check_sizes("crossings", segments, out.size());
+    all_crossings<Impl, Scalar>(*impl_, segments, out, counters, executor);
+}
+
+template <class Scalar>
+void CollisionMesh<Scalar>::crossings_of_rays(const Rays<Scalar>& rays, std::span<int> out, QueryCounters* counters,
+                                              const Executor& executor) const {
+    check_sizes("crossings", rays, out.size());
+    all_crossings<Impl, Scalar>(*impl_, rays, out, counters, executor);
+}
+
+template <class Scalar>
+std::size_t CollisionMesh<Scalar>::all_hits(const Segments<Scalar>& segments, std::span<std::size_t> offsets,
+                                            std::span<Hit<Scalar>> hits, const QueryOptions& options,
+                                            const Executor& executor) const {
+    check_sizes("all_hits", segments, segments.size());
+    check_sizes("all_hits", segments.size() + 1, "ends of rows", offsets.size(), "offsets");
+    return all_rows<Impl, Scalar>(*impl_, segments, offsets, hits, options, executor);
+}
+
+template <class Scalar>
+std::size_t CollisionMesh<Scalar>::all_hits_of_rays(const Rays<Scalar>& rays, std::span<std::size_t> offsets,
+                                                    std::span<Hit<Scalar>> hits, const QueryOptions& options,
+                                                    const Executor& executor) const {
+    check_sizes("all_hits", rays, rays.size());
+    check_sizes("all_hits", rays.size() + 1, "ends of rows", offsets.size(), "offsets");
+    return all_rows<Impl, Scalar>(*impl_, rays, offsets, hits, options, executor);
+}
+
 #define PIERCE_COUNTS(Scalar)                                                                                          \
-    template std::size_t CollisionMesh<Scalar>::contains_points(std::span<const Vec3<Scalar>>, std::span<std::uint8_t>, \
-                                                                const PlainBatchOptions&) const;                       \
-    template void CollisionMesh<Scalar>::winding_numbers(std::span<const Vec3<Scalar>>, std::span<int>,                \
-                                                         const PlainBatchOptions&) const;                              \
-    template std::size_t CollisionMesh<Scalar>::locate_points(std::span<const Vec3<Scalar>>, std::span<Location>,      \
-                                                              const PlainBatchOptions&) const;                         \
-    template void CollisionMesh<Scalar>::crossings(std::span<const Segment<Scalar>>, std::span<int>,                   \
-                                                   const PlainBatchOptions&) const;                                    \
-    template std::size_t CollisionMesh<Scalar>::all_hits(std::span<const Segment<Scalar>>, std::span<std::size_t>,     \
-                                                         std::span<Hit<Scalar>>, const BatchOptions&) const
+    template std::size_t CollisionMesh<Scalar>::contains_points(const PointsView<Scalar>&, std::span<std::uint8_t>,    \
+                                                                QueryCounters*, const Executor&) const;                \
+    template void CollisionMesh<Scalar>::winding_numbers(const PointsView<Scalar>&, std::span<int>, QueryCounters*,    \
+                                                         const Executor&) const;                                       \
+    template std::size_t CollisionMesh<Scalar>::locate_points(const PointsView<Scalar>&, std::span<Location>,          \
+                                                              QueryCounters*, const Executor&) const;                  \
+    template void CollisionMesh<Scalar>::crossings(const Segments<Scalar>&, std::span<int>, QueryCounters*,            \
+                                                   const Executor&) const;                                             \
+    template void CollisionMesh<Scalar>::crossings_of_rays(const Rays<Scalar>&, std::span<int>, QueryCounters*,        \
+                                                           const Executor&) const;                                     \
+    template std::size_t CollisionMesh<Scalar>::all_hits(const Segments<Scalar>&, std::span<std::size_t>,              \
+                                                         std::span<Hit<Scalar>>, const QueryOptions&, const Executor&) \
+        const;                                                                                                         \
+    template std::size_t CollisionMesh<Scalar>::all_hits_of_rays(const Rays<Scalar>&, std::span<std::size_t>,          \
+                                                                 std::span<Hit<Scalar>>, const QueryOptions&,          \
+                                                                 const Executor&) const
 PIERCE_COUNTS(float);
 PIERCE_COUNTS(double);
 #undef PIERCE_COUNTS

@@ -7,9 +7,9 @@ namespace pierce::detail {
 
 namespace {
 
-/// Segments, whose sums are the answers.
+/// Segments or rays, whose sums are the answers.
 template <class Scalar>
-struct SegmentWays {
+struct Sums {
     struct Query {
         Path path;
         std::size_t i;
@@ -17,7 +17,7 @@ struct SegmentWays {
     };
 
     const Scene<Scalar>& scene;
-    const Ends<Scalar>& ends;
+    const Ways<Scalar>& ways;
     std::size_t at;
     std::size_t last;
     int* out;
@@ -28,15 +28,11 @@ struct SegmentWays {
     bool next(Query& query) {
         for (; at < last; ++at) {
             out[at] = 0;
-            if (!is_finite(ends, at)) {
+            if (!ways.is_valid(at)) {
                 ++invalid;
                 continue;
             }
-            const auto row = static_cast<std::ptrdiff_t>(at);
-            for (std::size_t k = 0; k < 3; ++k) {
-                query.path.from[k] = static_cast<double>((ends.from + row * ends.from_stride)[k]);
-                query.path.to[k] = static_cast<double>((ends.to + row * ends.to_stride)[k]);
-            }
+            if (!ways.set_path(scene, at, std::numeric_limits<double>::infinity(), query.path)) continue;
             query.sum = 0;
             query.i = at++;
             return true;
@@ -55,16 +51,16 @@ struct SegmentWays {
 }  // namespace
 
 template <class Scalar>
-std::size_t crossings(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last,
+std::size_t crossings(const Scene<Scalar>& scene, const Ways<Scalar>& ways, std::size_t first, std::size_t last,
                       int* out, QueryCounters& counters, std::size_t& invalid) {
-    SegmentWays<Scalar> ways{scene, ends, first, last, out, invalid, counters};
-    fly_and_count(scene, ways, counters);
-    return ways.count;
+    Sums<Scalar> sums{scene, ways, first, last, out, invalid, counters};
+    fly_and_count(scene, sums, counters);
+    return sums.count;
 }
 
-template std::size_t crossings(const Scene<float>&, const Ends<float>&, std::size_t, std::size_t, int*, QueryCounters&,
+template std::size_t crossings(const Scene<float>&, const Ways<float>&, std::size_t, std::size_t, int*, QueryCounters&,
                                std::size_t&);
-template std::size_t crossings(const Scene<double>&, const Ends<double>&, std::size_t, std::size_t, int*,
+template std::size_t crossings(const Scene<double>&, const Ways<double>&, std::size_t, std::size_t, int*,
                                QueryCounters&, std::size_t&);
 
 }  // namespace pierce::detail

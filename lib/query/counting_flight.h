@@ -5,16 +5,16 @@
 
 namespace pierce::detail {
 
-/// `Ways` has what is asked:
+/// `Questions` has what is asked:
 ///   Query                                a question's state in flight, with its `path`
 ///   bool next(Query& query)              the next one; false: there is none
 ///   void visit(query, cluster, lanes)    triangles that may be met
 ///   void finish(query)                   writes the answer
-template <class Scalar, class Ways>
+template <class Scalar, class Questions>
 class CountingFlight {
   public:
-    CountingFlight(const Scene<Scalar>& scene, Ways& ways, QueryCounters& counters)
-        : scene_(scene), ways_(ways), counters_(counters) {}
+    CountingFlight(const Scene<Scalar>& scene, Questions& questions, QueryCounters& counters)
+        : scene_(scene), questions_(questions), counters_(counters) {}
 
     void run() {
         const Flight<Scalar> flight{
@@ -31,20 +31,20 @@ class CountingFlight {
 
   private:
     struct Slot {
-        typename Ways::Query query;
+        typename Questions::Query query;
         const Probe<Scalar>* probe;
         float limit;
     };
 
     bool start(unsigned at, Probe<Scalar>& probe, float& limit) {
         Slot& slot = slots_[at];
-        while (ways_.next(slot.query)) {
+        while (questions_.next(slot.query)) {
             if (make_probe(scene_, slot.query.path, Sides::both, 1.0, probe, limit)) {
                 slot.probe = &probe;
                 slot.limit = limit;
                 return true;
             }
-            ways_.finish(slot.query);
+            questions_.finish(slot.query);
         }
         return false;
     }
@@ -52,7 +52,7 @@ class CountingFlight {
         Slot& slot = slots_[at];
         return use_cluster(scene_, *slot.probe, cluster, lanes, slot.limit, counters_,
                            [&](ClusterRef which, unsigned bits) {
-                               ways_.visit(slot.query, which, bits);
+                               questions_.visit(slot.query, which, bits);
                                return 1.0;
                            });
     }
@@ -60,27 +60,27 @@ class CountingFlight {
         Slot& slot = slots_[at];
         counters_.nodes += slot.probe->nodes;
         counters_.clusters += slot.probe->clusters;
-        ways_.finish(slot.query);
+        questions_.finish(slot.query);
     }
 
     const Scene<Scalar>& scene_;
-    Ways& ways_;
+    Questions& questions_;
     QueryCounters& counters_;
     std::array<Slot, k_flights> slots_;
 };
 
 /// One after the other where there is no tree, or one too deep for queries in flight.
-template <class Scalar, class Ways>
-void fly_and_count(const Scene<Scalar>& scene, Ways& ways, QueryCounters& counters) {
+template <class Scalar, class Questions>
+void fly_and_count(const Scene<Scalar>& scene, Questions& questions, QueryCounters& counters) {
     if (!scene.empty() && scene.broadphase == Broadphase::tree && scene.tree.depth <= k_flight_depth)
-        return CountingFlight<Scalar, Ways>(scene, ways, counters).run();
-    typename Ways::Query query;
-    while (ways.next(query)) {
+        return CountingFlight<Scalar, Questions>(scene, ways, counters).run();
+    typename Questions::Query query;
+    while (questions.next(query)) {
         each_candidate(scene, query.path, Sides::both, 1, counters, [&](ClusterRef cluster, unsigned lanes) {
-            ways.visit(query, cluster, lanes);
+            questions.visit(query, cluster, lanes);
             return 1.0;
         });
-        ways.finish(query);
+        questions.finish(query);
     }
 }
 

@@ -4,24 +4,8 @@
 
 #include <query/answer.h>
 #include <query/counting.h>
-#include <query/ray_path.h>
 
 namespace pierce::detail {
-
-namespace {
-
-template <class Scalar>
-bool set_path(const Scene<Scalar>&, const Segment<Scalar>& segment, double most, Path& path) {
-    path = to_path(segment, most);
-    return true;
-}
-template <class Scalar>
-bool set_path(const Scene<Scalar>& scene, const Ray<Scalar>& ray, double most, Path& path) {
-    return set_ray_path(scene.bounds, to_point(ray.origin), to_point(ray.direction), static_cast<double>(ray.limit),
-                        most, sizeof(Scalar) == sizeof(float), path);
-}
-
-}  // namespace
 
 template <class Scalar, class Way>
 std::optional<Hit<Scalar>> first_hit(const Scene<Scalar>& scene, const Way& way, const QueryOptions& options,
@@ -49,6 +33,7 @@ std::size_t all_hits(const Scene<Scalar>& scene, const Way& way, std::span<Hit<S
     traverse<Certified>(scene, path, options, counters, all);
     all.sort();
     TriangleRef before{};
+    Candidate last;
     for (std::size_t i = 0; i < all.kept_count(); ++i) {
         Candidate candidate = All<Scalar>::candidate_of(out[i]);
         // Duplicates of one triangle, one behind the other: but for their numbers the answer is the same.
@@ -74,6 +59,17 @@ std::size_t all_hits(const Scene<Scalar>& scene, const Way& way, std::span<Hit<S
         };
         measure_path<Scalar>(scene.corners(candidate.triangle), path, candidate.measured);
         answer<Certified>(scene, path, candidate, passed, options, counters, nullptr, out[i]);
+        // Fractions that were rounded each by itself, within 1 ulp, may differ where the exact ones are equal, and go
+        // back where they are not. So of equal ones the first one's value stands for all, and of others the larger of
+        // a hit's own and the value before. Both are within 1 ulp of the true fraction f: a value from before belongs to
+        // a true fraction g <= f, and is at most 1 ulp above g, so of f; and it is taken only where g = f, or where it
+        // is larger than a value which is at most 1 ulp below f.
+        if (i > 0) {
+            const Scalar so_far = out[i - 1].exact_fraction;
+            const bool equal = compare_exactly(scene, path, last, candidate, counters) == 0;
+            out[i].exact_fraction = equal ? so_far : std::max(so_far, out[i].exact_fraction);
+        }
+        last = candidate;
     }
     return all.total();
 }

@@ -1,23 +1,23 @@
 // Batches: queries in flight through the tree; one after the other where there is no tree, or one too deep for that.
 #include <query/engine.h>
 
-#include <memory>
 #include <type_traits>
 
 #include <query/answer.h>
+#include <query/sinks.h>
 
 namespace pierce::detail {
 
 namespace {
 
 /// A batch of one kind of query. `Query` is the state of one in flight:
-///   Query(batch, i)       for query i
-///   path, collector       as traverse() takes them
-///   finish(batch)         writes the answer
+///   Query(batch, path, sink, i)   for query i, whose answer goes to `sink` (sinks.h)
+///   path, collector               as traverse() takes them
+///   finish(batch)                 writes the answer
 template <class Scalar>
 struct Batch {
     const Scene<Scalar>& scene;
-    const Ends<Scalar>& ends;
+    const Ways<Scalar>& ways;
     std::size_t next;
     std::size_t last;
     const QueryOptions& options;
@@ -25,50 +25,44 @@ struct Batch {
     std::size_t& invalid;
     std::size_t hits = 0;
 
-    /// The ends of query i; false where one is not finite, which counts as invalid.
+    /// The path of query i; false where it has none. One that is not valid counts as invalid.
     bool read_path(std::size_t i, Path& path) {
-        if (!is_finite(ends, i)) {
-            ++invalid;
-            return false;
-        }
-        const auto at = static_cast<std::ptrdiff_t>(i);
-        path.most = options.max_fraction;
-        for (std::size_t k = 0; k < 3; ++k) {
-            path.from[k] = static_cast<double>(ends.from[at * ends.from_stride + static_cast<std::ptrdiff_t>(k)]);
-            path.to[k] = static_cast<double>(ends.to[at * ends.to_stride + static_cast<std::ptrdiff_t>(k)]);
-        }
-        return true;
+        if (ways.is_valid(i)) return ways.set_path(scene, i, options.max_fraction, path);
+        ++invalid;
+        return false;
     }
 };
 
-template <class Scalar, class Answer>
+template <class Scalar, class Answers>
 struct FirstQuery {
-    using Out = std::optional<Answer>;
+    using Sink = Answers;
 
-    FirstQuery(const Batch<Scalar>& batch, const Path& whole, Out& answer)
-        : path(whole), collector(batch.scene, path, batch.counters), out(answer) {}
+    FirstQuery(const Batch<Scalar>& batch, const Path& whole, const Sink& answers, std::size_t i)
+        : path(whole), collector(batch.scene, path, batch.counters), sink(answers), number(i) {}
     FirstQuery(const FirstQuery&) = delete;
     FirstQuery& operator=(const FirstQuery&) = delete;
 
     void finish(Batch<Scalar>& batch) {
         if (!collector.found()) return;
         ++batch.hits;
-        Answer& hit = out.emplace();
-        answer<Certified, Scalar>(batch.scene, path, collector.best(), none_passed, batch.options, batch.counters,
-                                  &collector.list(), hit);
-        if constexpr (std::is_same_v<Answer, SweepHit<Scalar>>) hit.time_of_impact = hit.fraction;
+        sink.put(number, [&](Hit<Scalar>& hit) {
+            answer<Certified, Scalar>(batch.scene, path, collector.best(), none_passed, batch.options, batch.counters,
+                                      &collector.list(), hit);
+        });
     }
 
     Path path;
     First<Scalar> collector;
-    Out& out;
+    const Sink& sink;
+    std::size_t number;
 };
 
 template <class Scalar>
 struct AnyQuery {
-    using Out = std::uint8_t;
+    using Sink = AnyAnswers;
 
-    AnyQuery(const Batch<Scalar>&, const Path& whole, Out& answer) : path(whole), collector(none_passed), out(answer) {}
+    AnyQuery(const Batch<Scalar>&, const Path& whole, const Sink& answers, std::size_t i)
+        : path(whole), collector(none_passed), out(answers.out[i]) {}
 
     void finish(Batch<Scalar>& batch) {
         out = collector.found() ? 1 : 0;
@@ -77,23 +71,16 @@ struct AnyQuery {
 
     Path path;
     Any<bool (*)(TriangleRef)> collector;
-    Out& out;
+    std::uint8_t& out;
 };
 
-/// Makes an answer empty without a look at what it was: that waits for memory, 8 % of the time of a batch.
-template <class Out>
-void clear(Out& out) {
-    static_assert(std::is_trivially_destructible_v<Out>);
-    std::construct_at(&out);
-}
-
 template <class Query, class Scalar>
-void one_by_one(Batch<Scalar>& batch, typename Query::Out* out) {
+void one_by_one(Batch<Scalar>& batch, const typename Query::Sink& sink) {
     for (; batch.next < batch.last; ++batch.next) {
         Path path;
-        clear(out[batch.next]);
+        sink.clear(batch.next);
         if (!batch.read_path(batch.next, path)) continue;
-        Query query(batch, path, out[batch.next]);
+        Query query(batch, path, sink, batch.next);
         traverse<Certified>(batch.scene, query.path, batch.options, batch.counters, query.collector);
         query.finish(batch);
     }
@@ -102,7 +89,7 @@ void one_by_one(Batch<Scalar>& batch, typename Query::Out* out) {
 template <class Query, class Scalar>
 class InFlight {
   public:
-    InFlight(Batch<Scalar>& batch, typename Query::Out* out) : batch_(batch), out_(out) {}
+    InFlight(Batch<Scalar>& batch, const typename Query::Sink& sink) : batch_(batch), sink_(sink) {}
 
     void run() {
         const Scene<Scalar>& scene = batch_.scene;
@@ -130,11 +117,11 @@ class InFlight {
         while (batch_.next < batch_.last) {
             const std::size_t i = batch_.next++;
             Path path;
-            clear(out_[i]);
+            sink_.clear(i);
             if (!batch_.read_path(i, path)) continue;
             if (!make_probe(batch_.scene, path, options.sides, std::min(1.0, path.most), probe, limit))
                 continue;
-            slot.query.emplace(batch_, path, out_[i]);
+            slot.query.emplace(batch_, path, sink_, i);
             slot.probe = &probe;
             slot.limit = limit;
             return true;
@@ -161,47 +148,47 @@ class InFlight {
     }
 
     Batch<Scalar>& batch_;
-    typename Query::Out* out_;
+    const typename Query::Sink& sink_;
     std::array<Slot, k_flights> slots_;
 };
 
 template <class Query, class Scalar>
-std::size_t run(Batch<Scalar> batch, typename Query::Out* out) {
+std::size_t run(Batch<Scalar> batch, const typename Query::Sink& sink) {
     const bool flies =
         !batch.scene.empty() && batch.scene.broadphase == Broadphase::tree && batch.scene.tree.depth <= k_flight_depth;
     if (flies)
-        InFlight<Query, Scalar>(batch, out).run();
+        InFlight<Query, Scalar>(batch, sink).run();
     else
-        one_by_one<Query>(batch, out);
+        one_by_one<Query>(batch, sink);
     return batch.hits;
 }
 
 }  // namespace
 
-template <class Scalar, class Answer>
-std::size_t first_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last,
-                       std::optional<Answer>* out, const QueryOptions& options, QueryCounters& counters,
-                       std::size_t& invalid) {
-    return run<FirstQuery<Scalar, Answer>>(Batch<Scalar>{scene, ends, first, last, options, counters, invalid}, out);
+template <class Scalar>
+std::size_t first_hits(const Scene<Scalar>& scene, const Ways<Scalar>& ways, std::size_t first, std::size_t last,
+                       const HitsOut<Scalar>& out, const QueryOptions& options,
+                       QueryCounters& counters, std::size_t& invalid) {
+    return with_sink(out, [&](const auto& sink) {
+        return run<FirstQuery<Scalar, std::decay_t<decltype(sink)>>>(
+            Batch<Scalar>{scene, ways, first, last, options, counters, invalid}, sink);
+    });
 }
 
 template <class Scalar>
-std::size_t any_hits(const Scene<Scalar>& scene, const Ends<Scalar>& ends, std::size_t first, std::size_t last,
+std::size_t any_hits(const Scene<Scalar>& scene, const Ways<Scalar>& ways, std::size_t first, std::size_t last,
                      std::uint8_t* out, const QueryOptions& options, QueryCounters& counters, std::size_t& invalid) {
-    return run<AnyQuery<Scalar>>(Batch<Scalar>{scene, ends, first, last, options, counters, invalid}, out);
+    return run<AnyQuery<Scalar>>(Batch<Scalar>{scene, ways, first, last, options, counters, invalid},
+                                 AnyAnswers{out});
 }
 
-#define PIERCE_BATCHES(Scalar, Answer)                                                                   \
-    template std::size_t first_hits(const Scene<Scalar>&, const Ends<Scalar>&, std::size_t, std::size_t, \
-                                    std::optional<Answer>*, const QueryOptions&, QueryCounters&, std::size_t&)
-PIERCE_BATCHES(float, Hit<float>);
-PIERCE_BATCHES(float, SweepHit<float>);
-PIERCE_BATCHES(double, Hit<double>);
-PIERCE_BATCHES(double, SweepHit<double>);
-#undef PIERCE_BATCHES
-template std::size_t any_hits(const Scene<float>&, const Ends<float>&, std::size_t, std::size_t, std::uint8_t*,
+template std::size_t first_hits(const Scene<float>&, const Ways<float>&, std::size_t, std::size_t,
+                                const HitsOut<float>&, const QueryOptions&, QueryCounters&, std::size_t&);
+template std::size_t first_hits(const Scene<double>&, const Ways<double>&, std::size_t, std::size_t,
+                                const HitsOut<double>&, const QueryOptions&, QueryCounters&, std::size_t&);
+template std::size_t any_hits(const Scene<float>&, const Ways<float>&, std::size_t, std::size_t, std::uint8_t*,
                               const QueryOptions&, QueryCounters&, std::size_t&);
-template std::size_t any_hits(const Scene<double>&, const Ends<double>&, std::size_t, std::size_t, std::uint8_t*,
+template std::size_t any_hits(const Scene<double>&, const Ways<double>&, std::size_t, std::size_t, std::uint8_t*,
                               const QueryOptions&, QueryCounters&, std::size_t&);
 
 }  // namespace pierce::detail

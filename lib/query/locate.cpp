@@ -68,16 +68,16 @@ Location locate(const Scene<Scalar>& scene, const Vec3<Scalar>& at, std::span<Fa
 }
 
 template <class Scalar>
-std::size_t locate(const Scene<Scalar>& scene, std::span<const Vec3<Scalar>> points, Location* out,
+std::size_t locate(const Scene<Scalar>& scene, const PointsView<Scalar>& points, Location* out,
                    QueryCounters& counters, std::size_t& invalid) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         out[i] = {};
-        if (!points[i].allFinite()) {
+        if (!is_finite<Scalar>(points[i])) {
             ++invalid;
             continue;
         }
-        out[i] = locate(scene, points[i], {}, counters);
+        out[i] = locate<Scalar>(scene, points[i], {}, counters);
         count += out[i].place == Place::on_surface ? 1 : 0;
     }
     return count;
@@ -85,8 +85,8 @@ std::size_t locate(const Scene<Scalar>& scene, std::span<const Vec3<Scalar>> poi
 
 template Location locate(const Scene<float>&, const Vec3<float>&, std::span<FaceTouch>, QueryCounters&);
 template Location locate(const Scene<double>&, const Vec3<double>&, std::span<FaceTouch>, QueryCounters&);
-template std::size_t locate(const Scene<float>&, std::span<const Vec3<float>>, Location*, QueryCounters&, std::size_t&);
-template std::size_t locate(const Scene<double>&, std::span<const Vec3<double>>, Location*, QueryCounters&,
+template std::size_t locate(const Scene<float>&, const PointsView<float>&, Location*, QueryCounters&, std::size_t&);
+template std::size_t locate(const Scene<double>&, const PointsView<double>&, Location*, QueryCounters&,
                             std::size_t&);
 
 }  // namespace pierce::detail

@@ -4,6 +4,7 @@
 #include <span>
 
 #include <pierce/location.h>
+#include <pierce/points_view.h>
 #include <pierce/types.h>
 #include <query/scene.h>
 
@@ -14,10 +15,10 @@ template <class Scalar>
 [[gnu::noinline]] Location locate(const Scene<Scalar>& scene, const Vec3<Scalar>& at, std::span<FaceTouch> out,
                                   QueryCounters& counters);
 
-/// Many points. Those that are not finite count as `invalid`. Returns the number of those
-/// on the surface.
+/// Many points. Those that are not finite count as `invalid`. Returns the number of those on the
+/// surface.
 template <class Scalar>
-[[gnu::noinline]] std::size_t locate(const Scene<Scalar>& scene, std::span<const Vec3<Scalar>> points, Location* out,
+[[gnu::noinline]] std::size_t locate(const Scene<Scalar>& scene, const PointsView<Scalar>& points, Location* out,
                                      QueryCounters& counters, std::size_t& invalid);
 
 }  // namespace pierce::detail

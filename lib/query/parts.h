@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include <environment.h>
+#include <pierce/executor.h>
 #include <pierce/options.h>
 
 namespace pierce::detail {
@@ -28,12 +29,12 @@ inline void add(QueryCounters& to, const QueryCounters& from) {
 }
 
 /// Calls `part(first, last, counters, invalid)`, which returns its number of hits, for all parts of `count` queries.
-/// `Options` has an executor and counters.
-template <class Options, class Part>
-std::size_t in_parts(std::size_t count, const Options& options, std::atomic<std::uint64_t>& invalid_queries,
+/// `count_invalid(number)` counts queries that are not finite. `given` may be null.
+template <class CountInvalid, class Part>
+std::size_t in_parts(std::size_t count, QueryCounters* given, const Executor& executor, CountInvalid&& count_invalid,
                      Part&& part) {
     std::atomic<std::size_t> hits = 0;
-    options.executor((count + k_part - 1) / k_part, [&](std::size_t i) {
+    executor((count + k_part - 1) / k_part, [&](std::size_t i) {
         const std::size_t first = i * k_part;
         const std::size_t last = std::min(count, first + k_part);
         QueryCounters counters;
@@ -41,8 +42,8 @@ std::size_t in_parts(std::size_t count, const Options& options, std::atomic<std:
         std::size_t invalid = 0;
         const StandardArithmetic standard;
         hits.fetch_add(part(first, last, counters, invalid), std::memory_order_relaxed);
-        if (invalid > 0) invalid_queries.fetch_add(invalid, std::memory_order_relaxed);
-        if (options.counters != nullptr) add(*options.counters, counters);
+        count_invalid(invalid);
+        if (given != nullptr) add(*given, counters);
     });
     return hits;
 }

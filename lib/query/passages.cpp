@@ -72,9 +72,8 @@ void write(const Scene<Scalar>& scene, const Path& path, const MeetingPlace& pla
     out.at_end = place.first.at_end;
     out.fraction = out.at_end ? Scalar(1) : rounded.weights[3];
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto i = static_cast<Eigen::Index>(k);
-        out.position[i] = out.at_end ? static_cast<Scalar>(path.to[k]) : rounded.position[k];
-        out.normal[i] = rounded.normal[k];
+        out.position[k] = out.at_end ? static_cast<Scalar>(path.to[k]) : rounded.position[k];
+        out.normal[k] = rounded.normal[k];
     }
     out.face = place.faces[chosen].face;
     out.triangle = place.faces[chosen].triangle;

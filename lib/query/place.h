@@ -69,7 +69,7 @@ class PlaceSearch {
         if (!find_near(hit))
             find_back(below, hit);
         else
-            hit.fraction = to_point(hit.point) == path_.from ? Scalar{0} : rounded_down<Scalar>(below);
+            hit.fraction = to_point(hit.point.vec()) == path_.from ? Scalar{0} : rounded_down<Scalar>(below);
         return tries_;
     }
 
@@ -289,7 +289,7 @@ int place(const Path& path, const Measured& measured, const Decision& decision, 
     const Point point{values.point[0], values.point[1], values.point[2]};
     if (values.tried == Tried::far && point != path.from && ways.clear(point, true)) [[likely]] {
         hit.fraction = rounded_down<Scalar>(parameter_below(path, fraction_below<Scalar>(values.weights[3])));
-        std::memcpy(hit.point.data(), rounded.point, sizeof hit.point);
+        std::memcpy(&hit.point, rounded.point, sizeof hit.point);
         return 0;
     }
     return search_place(path, measured, place_of(measured, grain, decision.side), values, counters, ways, hit);

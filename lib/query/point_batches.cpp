@@ -9,17 +9,6 @@ namespace pierce::detail {
 
 namespace {
 
-template <class Scalar>
-[[nodiscard]] const Scalar* at(const PointRows<Scalar>& points, std::size_t i) {
-    return points.first + static_cast<std::ptrdiff_t>(i) * points.stride;
-}
-
-template <class Scalar>
-[[nodiscard]] Point point_at(const PointRows<Scalar>& points, std::size_t i) {
-    const Scalar* x = at(points, i);
-    return {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])};
-}
-
 template <class Scalar, class Out>
 struct PointWays {
     struct Query {
@@ -29,7 +18,7 @@ struct PointWays {
     };
 
     const Scene<Scalar>& scene;
-    const PointRows<Scalar>& points;
+    const PointsView<Scalar>& points;
     const std::uint64_t* entries;  ///< null: in the order given
     std::size_t next_one;
     std::size_t last;
@@ -44,12 +33,13 @@ struct PointWays {
             const std::size_t i = number_of(next_one);
             if (entries != nullptr && last - next_one > k_ahead) {
                 const std::size_t later = number_of(next_one + k_ahead);
-                __builtin_prefetch(at(points, later));
+                __builtin_prefetch(reinterpret_cast<const std::byte*>(points.data()) +
+                                   static_cast<std::ptrdiff_t>(later) * points.stride());
                 __builtin_prefetch(out + later, 1);
             }
             ++next_one;
             out[i] = 0;
-            const Point point = point_at(points, i);
+            const Point point = to_point(points[i]);
             if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2])) {
                 ++invalid;
                 continue;
@@ -85,15 +75,15 @@ struct PointWays {
 }  // namespace
 
 template <class Scalar>
-bool are_in_order(const Scene<Scalar>& scene, const PointRows<Scalar>& points, std::size_t count) {
+bool are_in_order(const Scene<Scalar>& scene, const PointsView<Scalar>& points) {
     constexpr std::size_t k_samples = 256;
-    const std::size_t pairs = count - 1;
+    const std::size_t pairs = points.size() - 1;
     const std::size_t step = std::max<std::size_t>(pairs / k_samples, 1);
     std::size_t seen = 0;
     std::size_t near = 0;
     for (std::size_t i = 0; i < pairs; i += step) {
-        const Point x = point_at(points, i);
-        const Point y = point_at(points, i + 1);
+        const Point x = to_point(points[i]);
+        const Point y = to_point(points[i + 1]);
         bool both = true;
         for (std::size_t k = 0; k < 3; ++k)
             both = both && std::abs(x[k] - y[k]) <= (scene.bounds.high[k] - scene.bounds.low[k]) / 16;
@@ -104,13 +94,13 @@ bool are_in_order(const Scene<Scalar>& scene, const PointRows<Scalar>& points, s
 }
 
 template <class Scalar>
-void key_points(const Scene<Scalar>& scene, const PointRows<Scalar>& points, std::size_t first, std::size_t last,
+void key_points(const Scene<Scalar>& scene, const PointsView<Scalar>& points, std::size_t first, std::size_t last,
                 std::uint64_t* entries) {
     constexpr double k_most = 1023;
     double per_cell[3];
     for (std::size_t k = 0; k < 3; ++k) per_cell[k] = k_most / (scene.bounds.high[k] - scene.bounds.low[k]);
     for (std::size_t i = first; i < last; ++i) {
-        const Point point = point_at(points, i);
+        const Point point = to_point(points[i]);
         std::uint64_t key = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             double cell = (point[k] - scene.bounds.low[k]) * per_cell[k];
@@ -122,7 +112,7 @@ void key_points(const Scene<Scalar>& scene, const PointRows<Scalar>& points, std
 }
 
 template <class Scalar, class Out>
-std::size_t winding_numbers(const Scene<Scalar>& scene, const PointRows<Scalar>& points, const std::uint64_t* entries,
+std::size_t winding_numbers(const Scene<Scalar>& scene, const PointsView<Scalar>& points, const std::uint64_t* entries,
                             std::size_t first, std::size_t last, Out* out, QueryCounters& counters,
                             std::size_t& invalid) {
     PointWays<Scalar, Out> ways{scene, points, entries, first, last, out, counters, invalid, OutTargets(scene.bounds)};
@@ -131,11 +121,11 @@ std::size_t winding_numbers(const Scene<Scalar>& scene, const PointRows<Scalar>&
 }
 
 #define PIERCE_POINTS(Scalar)                                                                                         \
-    template bool are_in_order(const Scene<Scalar>&, const PointRows<Scalar>&, std::size_t);                          \
-    template void key_points(const Scene<Scalar>&, const PointRows<Scalar>&, std::size_t, std::size_t, std::uint64_t*); \
-    template std::size_t winding_numbers(const Scene<Scalar>&, const PointRows<Scalar>&, const std::uint64_t*,        \
+    template bool are_in_order(const Scene<Scalar>&, const PointsView<Scalar>&);                                       \
+    template void key_points(const Scene<Scalar>&, const PointsView<Scalar>&, std::size_t, std::size_t, std::uint64_t*); \
+    template std::size_t winding_numbers(const Scene<Scalar>&, const PointsView<Scalar>&, const std::uint64_t*,        \
                                          std::size_t, std::size_t, int*, QueryCounters&, std::size_t&);               \
-    template std::size_t winding_numbers(const Scene<Scalar>&, const PointRows<Scalar>&, const std::uint64_t*,        \
+    template std::size_t winding_numbers(const Scene<Scalar>&, const PointsView<Scalar>&, const std::uint64_t*,        \
                                          std::size_t, std::size_t, std::uint8_t*, QueryCounters&, std::size_t&)
 PIERCE_POINTS(float);
 PIERCE_POINTS(double);

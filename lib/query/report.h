@@ -13,9 +13,9 @@ namespace pierce::detail {
 template <class Scalar>
 void report(const Rounded<Scalar>& rounded, const Decision& decision, std::uint32_t face, std::uint32_t triangle,
             Hit<Scalar>& hit) {
-    std::memcpy(hit.position.data(), rounded.position, sizeof hit.position);
-    std::memcpy(hit.normal.data(), rounded.normal, sizeof hit.normal);
-    std::memcpy(hit.barycentric.data(), rounded.weights, sizeof hit.barycentric);
+    std::memcpy(&hit.position, rounded.position, sizeof hit.position);
+    std::memcpy(&hit.normal, rounded.normal, sizeof hit.normal);
+    std::memcpy(&hit.barycentric, rounded.weights, sizeof hit.barycentric);
     hit.exact_fraction = rounded.weights[3];
     hit.face = face;
     hit.triangle = triangle;
@@ -23,6 +23,7 @@ void report(const Rounded<Scalar>& rounded, const Decision& decision, std::uint3
     hit.feature = decision.feature;
     hit.feature_index = decision.feature_index;
     hit.at_start = decision.at_start;
+    hit.reserved = 0;
 }
 
 }  // namespace pierce::detail

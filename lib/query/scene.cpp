@@ -32,7 +32,7 @@ std::size_t count_faces(const Scene<Scalar>& scene) {
 }
 
 template <class Scalar>
-void copy_triangles(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const Executor& executor) {
+void copy_triangles(const PlainMesh<Scalar>& mesh, Scene<Scalar>& scene, const Executor& executor) {
     scene.triangles = RawArray<IndexTriple>(mesh.triangles.size());
     each_chunk(executor, mesh.triangles.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
         std::copy(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -42,7 +42,7 @@ void copy_triangles(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const Ex
 
 // Those that are in no cluster.
 template <class Scalar>
-void keep_degenerate(const MeshView<Scalar>& mesh, Scene<Scalar>& scene, const std::vector<std::uint32_t>& numbers) {
+void keep_degenerate(const PlainMesh<Scalar>& mesh, Scene<Scalar>& scene, const std::vector<std::uint32_t>& numbers) {
     scene.degenerate.reserve(numbers.size());
     for (const std::uint32_t i : numbers) {
         const IndexTriple& t = mesh.triangles[i];
@@ -83,7 +83,7 @@ std::size_t Scene<Scalar>::bytes() const {
 }
 
 template <class Scalar>
-Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options) {
+Scene<Scalar> make_scene(const MeshView<Scalar>& view, const BuildOptions& options) {
     // The caller's threads have floating-point environments of their own, and no use for what is thrown when memory
     // runs out.
     const auto in_standard_arithmetic = [&](std::size_t parts, Task task) {
@@ -100,12 +100,18 @@ Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& optio
         if (failure) std::rethrow_exception(failure);
     };
     const Executor executor = options.executor ? Executor(in_standard_arithmetic) : Executor();
-    if (mesh.triangles.size() >= k_most_triangles)  // a record's place has 28 bits (cluster/record.h)
-        throw MeshError("the mesh has " + std::to_string(mesh.triangles.size()) + " triangles; " +
+    if (view.triangles.size() >= k_most_triangles)  // a record's place has 28 bits (cluster/record.h)
+        throw MeshError("the mesh has " + std::to_string(view.triangles.size()) + " triangles; " +
                         std::to_string(k_most_triangles - 1) + " are the most it can have");
+    if (const std::size_t left = view.triangles.left_over(); left > 0)
+        throw MeshError("the mesh has " + std::to_string(3 * view.triangles.size() + left) +
+                        " indices, which is no multiple of three");
+    const MadePlain<Scalar> plain(view, executor);
+    const PlainMesh<Scalar>& mesh = plain.mesh();
     check_mesh(mesh, executor);
     if (!(options.cell_size >= 0))
-        throw MeshError("BuildOptions::cell_size is " + std::to_string(options.cell_size) + ", and must be 0 or more");
+        throw std::invalid_argument("BuildOptions::cell_size is " + std::to_string(options.cell_size) +
+                                    ", and must be 0 or more");
     Scene<Scalar> scene;
     scene.broadphase = choose_broadphase(options.broadphase);
     scene.backend = &choose_backend(options.backend);

@@ -28,10 +28,10 @@ class BulletShape {
         btIndexedMesh part;
         part.m_numTriangles = static_cast<int>(mesh.triangles.size());
         part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(mesh.triangles.data());
-        part.m_triangleIndexStride = sizeof(IndexTriple);
+        part.m_triangleIndexStride = static_cast<int>(mesh.triangles.stride());
         part.m_numVertices = static_cast<int>(mesh.positions.size());
         part.m_vertexBase = reinterpret_cast<const unsigned char*>(mesh.positions.data());
-        part.m_vertexStride = sizeof(Vec3<float>);
+        part.m_vertexStride = static_cast<int>(mesh.positions.stride());
         return part;
     }
 

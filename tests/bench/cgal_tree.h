@@ -29,7 +29,8 @@ class CgalTree {
     };
 
     explicit CgalTree(const MeshView<float>& mesh) {
-        for (const IndexTriple& t : mesh.triangles) {
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            const IndexTriple t = mesh.triangles[i];
             const auto corner = [&](std::size_t k) { return point(mesh.positions[t[k]].cast<double>()); };
             triangles_.emplace_back(corner(0), corner(1), corner(2));
             if (triangles_.back().is_degenerate()) triangles_.pop_back();

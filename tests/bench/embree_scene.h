@@ -48,12 +48,14 @@ class EmbreeScene {
         rtcSetSceneFlags(scene_, options.flags);
         rtcSetSceneBuildQuality(scene_, options.quality);
         rtcSetGeometryBuildQuality(geometry_, options.quality);
-        void* vertices = rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+        void* const vertices = rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                  3 * sizeof(float), mesh.positions.size());
-        void* indices = rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+        void* const indices = rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                 3 * sizeof(unsigned), mesh.triangles.size());
-        std::memcpy(vertices, mesh.positions.data(), mesh.positions.size_bytes());
-        std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size_bytes());
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+            std::memcpy(static_cast<float*>(vertices) + 3 * i, mesh.positions[i].data(), 3 * sizeof(float));
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+            std::memcpy(static_cast<unsigned*>(indices) + 3 * i, mesh.triangles[i].data(), 3 * sizeof(unsigned));
         rtcCommitGeometry(geometry_);
         rtcAttachGeometry(scene_, geometry_);
         rtcCommitScene(scene_);

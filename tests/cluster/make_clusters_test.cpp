@@ -17,9 +17,15 @@ using detail::ClusterBuild;
 using detail::Corners;
 
 template <class Scalar>
+ClusterBuild<Scalar> clusters_of(const MeshView<Scalar>& mesh, const Executor& executor = {}) {
+    const detail::MadePlain<Scalar> plain(mesh, executor);
+    return detail::make_clusters(plain.mesh(), detail::has_zero_area, executor);
+}
+
+template <class Scalar>
 void expect_sound(const MeshView<Scalar>& mesh, const char* what) {
     SCOPED_TRACE(what);
-    const ClusterBuild<Scalar> build = detail::make_clusters(mesh, detail::has_zero_area, {});
+    const ClusterBuild<Scalar> build = clusters_of(mesh);
     std::vector<int> listed(mesh.triangles.size(), 0);
     std::vector<bool> taken(mesh.triangles.size() + 1, false);
     std::array<double, 3> low, high;
@@ -93,7 +99,7 @@ void expect_sound(const MeshView<Scalar>& mesh, const char* what) {
     EXPECT_TRUE(std::all_of(behind, behind + detail::k_beyond_records, [](Scalar x) { return x == 0; }));
 
     for (const Executor& executor : {Executor(Reversed()), Executor(Threads())}) {
-        const ClusterBuild<Scalar> other = detail::make_clusters(mesh, detail::has_zero_area, executor);
+        const ClusterBuild<Scalar> other = clusters_of(mesh, executor);
         ASSERT_EQ(other.boxes.size(), build.boxes.size());
         EXPECT_EQ(other.unit, build.unit);
         EXPECT_EQ(other.degenerate, build.degenerate);
@@ -138,18 +144,18 @@ TYPED_TEST(MakeClusters, NothingWithAnArea) {
     expect_sound(soup.view(), "nothing");
     for (int i = 0; i < 1000; ++i) add_triangle<TypeParam>(soup, {0, 1, 2}, {double(i), 1, 2}, {double(-i), 1, 2});
     expect_sound(soup.view(), "lines");
-    EXPECT_EQ(detail::make_clusters(soup.view(), detail::has_zero_area, {}).boxes.size(), 0U);
+    EXPECT_EQ(clusters_of(soup.view()).boxes.size(), 0U);
 }
 
 // Far vertices that no triangle has neither move the lattice of the keys nor count for the bounds, whatever they are.
 TYPED_TEST(MakeClusters, VerticesWithoutTriangles) {
     TriangleSoup<TypeParam> soup = random_soup<TypeParam>(5000, 0.02, 1, 0, 7);
-    const ClusterBuild<TypeParam> before = detail::make_clusters(soup.view(), detail::has_zero_area, {});
+    const ClusterBuild<TypeParam> before = clusters_of(soup.view());
     for (const TypeParam far :
          {TypeParam(1e30), std::numeric_limits<TypeParam>::infinity(), std::numeric_limits<TypeParam>::quiet_NaN()}) {
         soup.positions.push_back({far, far, -far});
         expect_sound(soup.view(), "far vertices");
-        EXPECT_EQ(detail::make_clusters(soup.view(), detail::has_zero_area, {}).boxes.size(), before.boxes.size());
+        EXPECT_EQ(clusters_of(soup.view()).boxes.size(), before.boxes.size());
     }
 }
 

@@ -127,7 +127,7 @@ TYPED_TEST(AnyHit, NothingIsLeft) {
 TEST(Handles, OfASweep) {
     const auto mesh = mesh_of<MeshOf<Eigen::Vector3d>>(cube());
     const CollisionMesh level(from_openmesh(mesh).view());
-    const auto hit = level.sweep({1, 3, 1}, {1, 1, 1});
+    const auto hit = level.sweep({{1, 3, 1}, {1, 1, 1}});
     ASSERT_TRUE(hit);
     EXPECT_EQ(face_handle(*hit), OpenMesh::FaceHandle(8));
     const OpenMesh::HalfedgeHandle halfedge = halfedge_handle(mesh, *hit);

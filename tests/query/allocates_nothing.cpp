@@ -34,24 +34,25 @@ void check() {
     for (Eigen::Index i = 0; i < count; ++i)
         state.col(i) << segments[static_cast<std::size_t>(i)].from, segments[static_cast<std::size_t>(i)].to, 0;
     std::vector<std::optional<Hit<Scalar>>> hits(segments.size());
-    std::vector<std::optional<SweepHit<Scalar>>> swept(segments.size());
+    std::vector<Hit<Scalar>> plain(segments.size());
+    std::vector<Scalar> fractions(segments.size());
+    const HitArrays<Scalar> arrays{.count = segments.size(), .fraction = fractions.data()};
     std::vector<std::uint8_t> any(segments.size());
     const Reversed reversed;
     QueryCounters counters;
-    BatchOptions options;
-    options.executor = reversed;
+    QueryOptions options;
     options.counters = &counters;
     options.sides = Sides::both;
     const auto accept = [](const Contact& contact) { return contact.face % 5 != 0; };
     options.accept = accept;
 
     expect_none("first_hits", [&] { mesh.first_hits(segments, hits); });
-    expect_none("first_hits with options", [&] { mesh.first_hits(segments, hits, options); });
-    expect_none("any_hits", [&] { mesh.any_hits(segments, any, options); });
+    expect_none("first_hits with options", [&] { mesh.first_hits(segments, hits, options, reversed); });
+    expect_none("any_hits", [&] { mesh.any_hits(segments, any, options, reversed); });
     expect_none("first_hits of blocks",
-                [&] { mesh.first_hits(state.topRows(3), state.middleRows(3, 3), hits, options); });
-    expect_none("sweep_points of blocks",
-                [&] { mesh.sweep_points(state.topRows(3), state.middleRows(3, 3), swept, options); });
+                [&] { mesh.first_hits({state.topRows(3), state.middleRows(3, 3)}, hits, options, reversed); });
+    expect_none("sweeps to plain hits", [&] { mesh.sweeps(segments, plain, options, reversed); });
+    expect_none("first_hits to arrays", [&] { mesh.first_hits(segments, arrays, options, reversed); });
     std::array<Hit<Scalar>, 8> all;
     expect_none("single calls", [&] {
         for (std::size_t i = 0; i < segments.size(); i += 5) {

@@ -56,7 +56,7 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
     }
     std::vector<std::optional<Hit<Scalar>>> first(segments.size());
     std::vector<std::uint8_t> any(segments.size());
-    hash.add(mesh.first_hits(segments, first, {{.sides = Sides::back}, {}}));
+    hash.add(mesh.first_hits(segments, first, {.sides = Sides::back}));
     hash.add(mesh.any_hits(segments, any));
     for (const auto& hit : first)
         if (hit) hash.add(*hit);

@@ -52,7 +52,7 @@ void check_wedges(double offset) {
                     return detail::to_point(soup.positions[soup.triangles[hit->triangle][c]]);
                 };
                 const detail::Corners face = {corner_at(0), corner_at(1), corner_at(2)};
-                const RationalOracle way({detail::to_point(segment.from), detail::to_point(hit->point)}, face);
+                const RationalOracle way({detail::to_point(segment.from), detail::to_point(hit->point.vec())}, face);
                 ASSERT_FALSE(way.hit(Sides::both)) << i;
             }
         }

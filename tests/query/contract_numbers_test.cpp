@@ -26,7 +26,7 @@ void expect_nothing_for_bad_numbers() {
                 EXPECT_FALSE(mesh.first_hit(s));
                 EXPECT_FALSE(mesh.any_hit(s));
                 EXPECT_EQ(mesh.all_hits(s, out), 0U);
-                EXPECT_FALSE(mesh.sweep(s.from, s.to));
+                EXPECT_FALSE(mesh.sweep(s));
                 asked += 4;
             }
     EXPECT_EQ(mesh.statistics().invalid_queries, asked);

@@ -74,7 +74,7 @@ void expect_all_counted() {
     EXPECT_GT(single.retreats, 0U);
 
     QueryCounters batch;
-    BatchOptions options;
+    QueryOptions options;
     options.counters = &batch;
     std::vector<std::optional<Hit<Scalar>>> hits(segments.size());
     mesh.first_hits(segments, hits, options);

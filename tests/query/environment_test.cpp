@@ -149,9 +149,6 @@ void expect_no_trap() {
     TriangleSoup<Scalar> bad_soup = soup;
     bad_soup.positions[2][0] = nan;
     const QueryOptions nothing{.max_fraction = limit};
-    BatchOptions batch;
-    BatchOptions nothing_batch;
-    nothing_batch.max_fraction = limit;
 
     bool hit = false;
     bool refused = true;
@@ -165,7 +162,7 @@ void expect_no_trap() {
             const bool found = mesh.first_hit(s).has_value();
             const bool some = mesh.any_hit(s);
             const std::size_t count =
-                mesh.all_hits(s, all) + static_cast<std::size_t>(mesh.sweep(s.from, s.to).has_value());
+                mesh.all_hits(s, all) + static_cast<std::size_t>(mesh.sweep(s).has_value());
             const bool inside = mesh.contains(s.from);
             const int crossed = mesh.crossings(s);
             const std::size_t faces = mesh.explain(s).size();
@@ -174,8 +171,8 @@ void expect_no_trap() {
         }
         refused = refused && !mesh.first_hit(through, nothing) && !mesh.any_hit(through, nothing) &&
                   mesh.all_hits(through, all, nothing) == 0;
-        hits = mesh.first_hits(both, first, batch) + mesh.any_hits(both, any, batch);
-        none = mesh.first_hits(both, first, nothing_batch) + mesh.any_hits(both, any, nothing_batch);
+        hits = mesh.first_hits(both, first) + mesh.any_hits(both, any);
+        none = mesh.first_hits(both, first, nothing) + mesh.any_hits(both, any, nothing);
         try {
             const CollisionMesh<Scalar> not_finite(bad_soup.view());
         } catch (const MeshError&) {

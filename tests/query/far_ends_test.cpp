@@ -48,7 +48,7 @@ TEST(FarEnds, are_as_good_as_near_ones) {
                 const V other = random.chance(0.2) ? V(target - 0.7 * far * way) : V(target - width * way);
                 const Segment<double> segment =
                     random.chance(0.5) ? Segment<double>{there, other} : Segment<double>{other, there};
-                BatchOptions options;
+                QueryOptions options;
                 options.sides = Sides::both;
                 const auto expected = naive.first_hit(segment, options);
                 ASSERT_TRUE(same_answer(mesh.first_hit(segment, options), expected)) << width << ' ' << far;

@@ -38,7 +38,7 @@ Outcome run(double offset, bool inwards, std::size_t particles) {
             double left = dt;
             for (int bounce = 0; bounce < 4; ++bounce) {
                 const Vec3<Scalar> to = (position.template cast<double>() + velocity * left).template cast<Scalar>();
-                const auto hit = mesh.sweep(position, to, options);
+                const auto hit = mesh.sweep({position, to}, options);
                 if (!hit) {
                     position = to;
                     break;
@@ -46,7 +46,7 @@ Outcome run(double offset, bool inwards, std::size_t particles) {
                 ++outcome.bounces;
                 outcome.travelled += (hit->point - position).template cast<double>().norm();
                 position = hit->point;
-                left *= 1 - double(hit->time_of_impact);
+                left *= 1 - double(hit->fraction);
                 const Vec3<double> n = hit->normal.template cast<double>();
                 velocity = 0.95 * (velocity - 2 * velocity.dot(n) * n);
             }

@@ -163,7 +163,7 @@ Distances distances(const TriangleSoup<Scalar>& soup, int count, Sides sides, St
         if (square <= Q(most) * Q(most)) continue;
         ++result.beyond;
         EXPECT_FALSE(has_clear_place(mesh, segment, *hit, options, most, unit, random))
-            << hit->point.transpose() << " is " << std::sqrt(CGAL::to_double(square)) / unit << " units from " << hit->position.transpose();
+            << hit->point << " is " << std::sqrt(CGAL::to_double(square)) / unit << " units from " << hit->position;
     }
     std::cout << result.hits << " hits, " << result.at_start << " at their start, " << result.beyond << " points further than a grain and 8 units\n";
     return result;
@@ -285,7 +285,7 @@ double kept_of_a_slide(float offset, float degrees, float rate) {
         float left = dt;
         for (int i = 0; i < 6; ++i) {
             const F to = x + v * left;
-            const auto hit = mesh.sweep(x, to);
+            const auto hit = mesh.sweep({x, to});
             if (!hit) {
                 x = to;
                 break;
@@ -298,8 +298,8 @@ double kept_of_a_slide(float offset, float degrees, float rate) {
                 v.setZero();
                 break;
             }
-            left *= 1 - hit->time_of_impact;
-            v -= v.dot(hit->normal) * hit->normal;
+            left *= 1 - hit->fraction;
+            v -= hit->normal.dot(v) * hit->normal;
         }
     }
     const float sliding = time - since;
@@ -335,7 +335,7 @@ void expect_rest(int steps, double height, const V& up) {
     at = mesh.first_hit({at, (middle - up).cast<Scalar>()}).value().point;
     std::array<QueryCounters, 2> halves;
     for (int i = 0; i < steps; ++i) {
-        const auto hit = mesh.sweep(at, push(at, i), {.counters = &halves[i < steps / 2 ? 0 : 1]});
+        const auto hit = mesh.sweep({at, push(at, i)}, {.counters = &halves[i < steps / 2 ? 0 : 1]});
         ASSERT_TRUE(hit) << i;
         ASSERT_FALSE(hit->at_start) << i;
         at = hit->point;

@@ -115,7 +115,7 @@ void expect_naive_answers(std::uint32_t faces, int meshes, int segments) {
         for (int i = 0; i < segments; ++i) {
             const Segment<Scalar> segment = spike.segment(random);
             QueryCounters counters;
-            BatchOptions options;
+            QueryOptions options;
             options.sides = std::array{Sides::front, Sides::back, Sides::both, Sides::both}[random.below(4)];
             options.counters = &counters;
             if (random.chance(0.2)) options.face_mask = mask;

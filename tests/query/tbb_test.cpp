@@ -28,10 +28,7 @@ void compare() {
     const std::vector<Segment<Scalar>> segments = batch_segments(soup.view(), 20'000, 1);
     std::vector<std::optional<Hit<Scalar>>> out(segments.size());
     QueryCounters counters;
-    BatchOptions options;
-    options.executor = tbb_executor();
-    options.counters = &counters;
-    const std::size_t count = other.first_hits(segments, out, options);
+    const std::size_t count = other.first_hits(segments, out, {.counters = &counters}, tbb_executor());
     EXPECT_EQ(counters.queries, segments.size());
     std::size_t expected = 0;
     for (std::size_t i = 0; i < segments.size(); ++i) {

@@ -71,7 +71,7 @@ void compare() {
                                          {.cell_size = random.chance(0.5) ? 0 : std::exp(random.between(-6, 1))});
         const NaiveMesh<Scalar> naive(blades.soup.view());
         QueryCounters counters;
-        BatchOptions options;
+        QueryOptions options;
         options.sides = std::array{Sides::front, Sides::back, Sides::both}[random.below(3)];
         options.counters = &counters;
         const auto expected = naive.first_hit(blades.segment, options);
@@ -119,7 +119,7 @@ void pass_by_a_level(double far, double unit) {
             const Segment<Scalar> segment = {
                 point({-a, a - random.between_ints(0, 3), random.between_ints(-2, 2) * 1.0}),
                 point({b, -b - random.between_ints(0, 3), random.between_ints(-2, 2) * 1.0})};
-            BatchOptions options;
+            QueryOptions options;
             options.sides = Sides::both;
             const auto expected = naive.first_hit(segment, options);
             ASSERT_TRUE(same_answer(mesh.first_hit(segment, options), expected)) << i;

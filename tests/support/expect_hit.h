@@ -15,7 +15,7 @@ inline std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
 inline std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
 
 template <class Scalar>
-bool same_bits(const Vec3<Scalar>& x, const Vec3<Scalar>& y) {
+bool same_bits(const Coordinates<Scalar>& x, const Coordinates<Scalar>& y) {
     return bits(x[0]) == bits(y[0]) && bits(x[1]) == bits(y[1]) && bits(x[2]) == bits(y[2]);
 }
 

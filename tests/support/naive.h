@@ -48,16 +48,15 @@ class NaiveMesh {
     std::size_t all_hits(const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
                          const QueryOptions& options = {}) const {
         const std::vector<Found> found = hits(path_of(segment), options);
-        for (std::size_t i = 0; i < std::min(found.size(), out.size()); ++i)
-            out[i] = reported(path_of(segment), found, i, options);
+        const detail::Path path = path_of(segment);
+        for (std::size_t i = 0; i < std::min(found.size(), out.size()); ++i) {
+            out[i] = reported(path, found, i, options);
+            if (i == 0) continue;
+            const Scalar before = out[i - 1].exact_fraction;
+            const bool equal = order(path, found[i - 1].triangle, found[i].triangle) == 0;
+            out[i].exact_fraction = equal ? before : std::max(before, out[i].exact_fraction);
+        }
         return found.size();
-    }
-
-    [[nodiscard]] std::optional<SweepHit<Scalar>> sweep(const Vec3<Scalar>& from, const Vec3<Scalar>& to,
-                                                        const QueryOptions& options = {}) const {
-        const auto hit = first_hit({from, to}, options);
-        if (!hit) return std::nullopt;
-        return SweepHit<Scalar>{*hit, hit->fraction};
     }
 
   private:

@@ -15,8 +15,8 @@ template <class Scalar>
 struct Extent {
     explicit Extent(const MeshView<Scalar>& mesh)
         : low(Vec3<double>::Constant(std::numeric_limits<double>::infinity())), high(-low) {
-        for (const IndexTriple& t : mesh.triangles)
-            for (std::uint32_t v : t) {
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+            for (const std::uint32_t v : mesh.triangles[i]) {
                 low = low.cwiseMin(mesh.positions[v].template cast<double>());
                 high = high.cwiseMax(mesh.positions[v].template cast<double>());
             }

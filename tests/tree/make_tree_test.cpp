@@ -114,7 +114,7 @@ struct Built {
     detail::Tree tree;
 
     Built(const MeshView<Scalar>& mesh, const Executor& executor)
-        : build(detail::make_clusters(mesh, detail::has_zero_area, executor)) {
+        : build(detail::make_clusters(detail::MadePlain<Scalar>(mesh, {}).mesh(), detail::has_zero_area, executor)) {
         frame = detail::frame_of(build);
         tree =
             detail::make_tree<Scalar>({build.boxes.data(), build.boxes.size()}, build.clusters.empty, frame, executor);

@@ -1,5 +1,7 @@
 #include "builds.h"
 
+#include <functional>
+
 #include <malloc.h>
 
 #include "../embree_scene.h"
@@ -117,7 +119,7 @@ void measure_builds(const std::string& mesh, const MeshView<float>& view, int re
         double on_two = 0;
         {
             const Threads two(2);  // gone before Embree's turn, as threads that look for work take time of the process
-            on_two = builder.ours({.executor = Executor(two)}).wall;
+            on_two = builder.ours({.executor = std::ref(two)}).wall;
         }
         const double in_grid = builder.ours(grid_options()).process;
         const double embree_low = builder.embree_again(*low);

@@ -1,3 +1,4 @@
+#include <functional>
 #include <optional>
 
 #include "broadphase.h"
@@ -64,9 +65,9 @@ template <class Scalar>
 class FirstBatch : public PierceColumn<Scalar> {
   public:
     FirstBatch(std::string_view name, SharedMesh<Scalar> mesh, Sides sides, unsigned threads = 1)
-        : PierceColumn<Scalar>(name, std::move(mesh)), executor_(threads) {
+        : PierceColumn<Scalar>(name, std::move(mesh)), threads_(threads) {
         options_.sides = sides;
-        if (threads > 1) options_.executor = executor_;
+        if (threads > 1) executor_ = std::ref(threads_);
     }
 
     void prepare(std::span<const Segment<float>> segments) override {
@@ -76,13 +77,14 @@ class FirstBatch : public PierceColumn<Scalar> {
     std::size_t ask(std::size_t begin, std::size_t end) override {
         const std::size_t count = end - begin;
         return this->mesh().first_hits(this->segments().subspan(begin, count), std::span(out_).subspan(begin, count),
-                                       options_);
+                                       options_, executor_);
     }
 
   private:
     std::vector<std::optional<Hit<Scalar>>> out_;
-    Threads executor_;
-    BatchOptions options_;
+    Threads threads_;
+    QueryOptions options_;
+    Executor executor_;
 };
 
 template <class Scalar>
@@ -95,10 +97,8 @@ class AnyBatch : public PierceColumn<Scalar> {
     }
     std::size_t ask(std::size_t begin, std::size_t end) override {
         const std::size_t count = end - begin;
-        BatchOptions options;
-        options.sides = Sides::both;
         return this->mesh().any_hits(this->segments().subspan(begin, count), std::span(out_).subspan(begin, count),
-                                     options);
+                                     {.sides = Sides::both});
     }
 
   private:

@@ -13,9 +13,7 @@ int main() {
     const pierce::Segment<float> down{pierce::Vec3<float>{0.25F, 0.25F, 1}, pierce::Vec3<float>{0.25F, 0.25F, -1}};
     const std::vector<pierce::Segment<float>> segments(10000, down);
     std::vector<std::uint8_t> hit(segments.size());
-    pierce::BatchOptions options;
-    options.executor = pierce::tbb_executor();
-    if (mesh.any_hits(segments, hit, options) != segments.size()) {
+    if (mesh.any_hits(segments, hit, {}, pierce::tbb_executor()) != segments.size()) {
         std::puts("not all of them hit");
         return 1;
     }
