@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <pierce/location.h>
 #include <pierce/coordinates.h>
+#include <pierce/location.h>
 #include <pierce/options.h>
 #include <pierce/types.h>
 

@@ -73,7 +73,7 @@ class CountingFlight {
 template <class Scalar, class Questions>
 void fly_and_count(const Scene<Scalar>& scene, Questions& questions, QueryCounters& counters) {
     if (!scene.empty() && scene.broadphase == Broadphase::tree && scene.tree.depth <= k_flight_depth)
-        return CountingFlight<Scalar, Questions>(scene, ways, counters).run();
+        return CountingFlight<Scalar, Questions>(scene, questions, counters).run();
     typename Questions::Query query;
     while (questions.next(query)) {
         each_candidate(scene, query.path, Sides::both, 1, counters, [&](ClusterRef cluster, unsigned lanes) {

@@ -71,16 +71,15 @@ void check() {
     std::vector<Hit<Scalar>> rows(mesh.all_hits(segments, offsets, {}));
     std::array<Passage<Scalar>, 8> passages;
     std::array<FaceTouch, 32> touches;
-    const PlainBatchOptions plain{.executor = reversed};
     expect_none("locate_points and crossings", [&] {
-        mesh.locate_points(points, places, plain);
-        mesh.crossings(segments, counts, plain);
+        mesh.locate_points(points, places, nullptr, reversed);
+        mesh.crossings(segments, counts, nullptr, reversed);
     });
     expect_none("few points", [&] {
-        mesh.contains_points(std::span(points).first(4000), std::span(any).first(4000), plain);
-        mesh.winding_numbers(std::span(points).first(4000), std::span(counts).first(4000), plain);
+        mesh.contains_points(std::span(points).first(4000), std::span(any).first(4000), nullptr, reversed);
+        mesh.winding_numbers(std::span(points).first(4000), std::span(counts).first(4000), nullptr, reversed);
     });
-    expect_none("all_hits in rows", [&] { mesh.all_hits(segments, offsets, rows, options); });
+    expect_none("all_hits in rows", [&] { mesh.all_hits(segments, offsets, rows, options, reversed); });
     expect_none("locate and passages", [&] {
         for (std::size_t i = 0; i < segments.size(); i += 5) {
             places[i] = mesh.locate(points[i], touches);

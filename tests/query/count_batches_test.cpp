@@ -42,16 +42,15 @@ void expect_same_as_single_calls(const TriangleSoup<Scalar>& soup, std::size_t c
         const CollisionMesh<Scalar> mesh(soup.view(), {.broadphase = broadphase});
         for (const Executor& executor : {Executor(), Executor(reversed), Executor(threads)}) {
             QueryCounters counters;
-            const PlainBatchOptions options{.counters = &counters, .executor = executor};
             std::vector<std::uint8_t> inside(count, 77);
             std::vector<int> winding(count, 77);
             std::vector<Location> places(count, {Place::inside, 77, 77});
             std::vector<int> crossings(count, 77);
             const std::uint64_t before = mesh.statistics().invalid_queries;
-            const std::size_t contained = mesh.contains_points(points, inside, options);
-            mesh.winding_numbers(points, winding, options);
-            const std::size_t on_surface = mesh.locate_points(points, places, options);
-            mesh.crossings(segments, crossings, options);
+            const std::size_t contained = mesh.contains_points(points, inside, &counters, executor);
+            mesh.winding_numbers(points, winding, &counters, executor);
+            const std::size_t on_surface = mesh.locate_points(points, places, &counters, executor);
+            mesh.crossings(segments, crossings, &counters, executor);
             const std::uint64_t invalid = mesh.statistics().invalid_queries - before;
             EXPECT_EQ(counters.queries, 4 * count);
             EXPECT_GT(counters.nodes, count);
@@ -119,7 +118,7 @@ TEST(CountBatches, say_what_does_not_fit) {
         mesh.contains_points(points, two);
         FAIL();
     } catch (const std::invalid_argument& error) {
-        EXPECT_STREQ(error.what(), "contains_points: 2 places for 3 points: they must be as many");
+        EXPECT_STREQ(error.what(), "contains_points: 3 points and 2 places for answers");
     }
     EXPECT_THROW(mesh.winding_numbers(points, four), std::invalid_argument);
     EXPECT_THROW(mesh.locate_points(points, none), std::invalid_argument);
@@ -130,16 +129,16 @@ TEST(CountBatches, say_what_does_not_fit) {
 }
 
 template <class Scalar>
-void expect_rows(const BatchOptions& given) {
+void expect_rows(const QueryOptions& given, const Executor& executor = {}) {
     const TriangleSoup<Scalar> soup = lattice_and_shards<Scalar>();
     const CollisionMesh<Scalar> mesh(soup.view());
     const std::vector<Segment<Scalar>> segments = batch_segments(soup.view(), 2500, 6);
     QueryCounters counters;
-    BatchOptions options = given;
+    QueryOptions options = given;
     options.counters = &counters;
     std::vector<std::size_t> offsets(segments.size() + 1, 77);
     const std::uint64_t before = mesh.statistics().invalid_queries;
-    const std::size_t total = mesh.all_hits(segments, offsets, {}, options);
+    const std::size_t total = mesh.all_hits(segments, offsets, {}, options, executor);
     EXPECT_GT(mesh.statistics().invalid_queries, before);
     EXPECT_EQ(counters.queries, segments.size());
     ASSERT_EQ(offsets.back(), total);
@@ -149,7 +148,7 @@ void expect_rows(const BatchOptions& given) {
         std::vector<Hit<Scalar>> hits(room);
         for (Hit<Scalar>& hit : hits) hit.face = 123'456;
         std::fill(offsets.begin(), offsets.end(), 77);
-        ASSERT_EQ(mesh.all_hits(segments, offsets, hits, options), total);
+        ASSERT_EQ(mesh.all_hits(segments, offsets, hits, options, executor), total);
         for (std::size_t i = 0; i < segments.size(); ++i) {
             const std::size_t count = mesh.all_hits(segments[i], row, given);
             ASSERT_EQ(offsets[i + 1] - offsets[i], count);
@@ -167,13 +166,12 @@ void expect_rows(const BatchOptions& given) {
 
 TEST(HitRows, are_those_of_single_calls) {
     const Threads threads;
-    BatchOptions options;
+    QueryOptions options;
     expect_rows<double>(options);
     options.sides = Sides::both;
-    options.executor = threads;
-    expect_rows<float>(options);
+    expect_rows<float>(options, std::ref(threads));
     options.max_fraction = 0.3;
-    expect_rows<double>(options);
+    expect_rows<double>(options, std::ref(threads));
     const CollisionMesh<double> mesh(bumpy_sphere(4).view());
     const std::vector<Segment<double>> segments(3, {V(9, 0.1, 0.2), V(0, 0.1, 0.2)});
     std::vector<std::size_t> offsets(4);

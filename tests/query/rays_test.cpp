@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <pierce/pierce.h>
+#include <support/executors.h>
+#include <support/expect_hit.h>
 #include <support/meshes.h>
 #include <support/random.h>
 #include <support/ray_oracle.h>
@@ -199,6 +201,69 @@ using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(Rays, Scalars, );
 
 TYPED_TEST(Rays, are_decided_exactly) { judge<TypeParam>(200, 50, 91); }
+
+// Batches: the bits of the single calls, from an array of rays and from arrays of origins, directions and limits.
+TYPED_TEST(Rays, in_batches_have_the_bits_of_single_calls) {
+    using Scalar = TypeParam;
+    Random random(93);
+    const Threads threads;
+    for (int round = 0; round < 4; ++round) {
+        const TriangleSoup<Scalar> soup = handful<Scalar>(1, random);
+        const CollisionMesh<Scalar> mesh(soup.view());
+        RaySource<Scalar> source(soup, 1, random);
+        std::vector<Ray<Scalar>> rays;
+        std::vector<Vec3<Scalar>> origins;
+        std::vector<Vec3<Scalar>> directions;
+        std::vector<Scalar> limits;
+        for (int i = 0; i < 3000; ++i) {
+            rays.push_back(source.question().ray);
+            if (i % 100 == 7) rays.back().limit = -1;
+            if (i % 100 == 8) rays.back().limit = std::numeric_limits<Scalar>::quiet_NaN();
+            if (i % 100 == 9) rays.back().direction[1] = std::numeric_limits<Scalar>::infinity();
+            origins.push_back(rays.back().origin);
+            directions.push_back(rays.back().direction);
+            limits.push_back(rays.back().limit);
+        }
+        const QueryOptions options{.sides = round % 2 == 0 ? Sides::front : Sides::both};
+        const Rays<Scalar> of_array(rays);
+        const Rays<Scalar> of_parts(origins, directions, limits.data());
+        std::vector<std::optional<Hit<Scalar>>> hits(rays.size());
+        std::vector<Hit<Scalar>> plain(rays.size());
+        std::vector<std::uint8_t> any(rays.size(), 9);
+        std::vector<int> crossings(rays.size(), 9);
+        std::vector<std::size_t> offsets(rays.size() + 1);
+        const std::uint64_t invalid = mesh.statistics().invalid_queries;
+        mesh.first_hits(of_array, hits, options, std::ref(threads));
+        EXPECT_EQ(mesh.statistics().invalid_queries - invalid, 90U);
+        mesh.first_hits(of_parts, plain, options);
+        mesh.any_hits(of_parts, any, options, std::ref(threads));
+        mesh.crossings(of_array, crossings);
+        std::vector<Hit<Scalar>> rows(mesh.all_hits(of_array, offsets, {}, options));
+        mesh.all_hits(of_array, offsets, rows, options);
+        std::array<Hit<Scalar>, 16> row;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const auto expected = mesh.first_hit(rays[i], options);
+            ASSERT_TRUE(same_answer(hits[i], expected)) << i;
+            ASSERT_EQ(static_cast<bool>(plain[i]), expected.has_value());
+            if (expected) {
+                ASSERT_TRUE(same_bits(plain[i], *expected)) << i;
+            }
+            ASSERT_EQ(any[i], mesh.any_hit(rays[i], options) ? 1 : 0);
+            ASSERT_EQ(crossings[i], mesh.crossings(rays[i]));
+            const std::size_t count = mesh.all_hits(rays[i], row, options);
+            ASSERT_EQ(count, offsets[i + 1] - offsets[i]);
+            for (std::size_t k = 0; k < count; ++k) {
+                ASSERT_TRUE(same_bits(rows[offsets[i] + k], row[k])) << i;
+            }
+        }
+        // One limit for all of them.
+        mesh.any_hits(Rays<Scalar>(origins, directions, 2), any, options);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            ASSERT_EQ(any[i], mesh.any_hit(Ray<Scalar>{origins[i], directions[i], 2}, options) ? 1 : 0);
+        }
+        EXPECT_THROW(mesh.any_hits(Rays<Scalar>(origins, std::span(directions).first(2)), any), std::invalid_argument);
+    }
+}
 
 template <class Scalar>
 class RaysSoak : public ::testing::Test {};
