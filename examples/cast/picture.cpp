@@ -118,8 +118,7 @@ Colour look(const pierce::CollisionMesh<Scalar>& mesh, const Camera& camera, dou
     const Point to = camera.end_of_sight(x, y);
     const auto hit = mesh.first_hit({from.cast<Scalar>(), to.cast<Scalar>()}, {.sides = pierce::Sides::both});
     if (!hit) return background(x, y);
-    const double towards_side = hit->side == pierce::Sides::front ? 1 : -1;
-    const Point normal = camera.axes().transpose() * hit->normal.template cast<double>() * towards_side;
+    const Point normal = camera.axes().transpose() * hit->facing().template cast<double>();
     const Point to_eye = (camera.axes().transpose() * (from - to)).stableNormalized();
     // The hit's point is never beyond the face, so the face can't shade itself: no offset is needed.
     const Point light = hit->point.template cast<double>() + camera.depth() * (camera.axes() * key_light);

@@ -27,7 +27,7 @@ CollisionMesh<double> three_floors() {
 // In a frame of its own, as a function that fills options for its callers has.
 [[gnu::noinline]] QueryOptions only_if(const std::vector<int>& opaque, int& asked) {
     QueryOptions options{.sides = Sides::both};
-    const int wanted = 1;
+    const int wanted = asked + 1;
     options.accept = [&opaque, &asked, wanted](const Contact& contact) {
         ++asked;
         return opaque[contact.face] == wanted;
