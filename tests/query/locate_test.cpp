@@ -2,6 +2,7 @@
 // against CGAL's side of closed meshes.
 #include <algorithm>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
 #include <support/inside_oracle.h>
@@ -122,6 +123,28 @@ TEST(Locate, agrees_with_cgal_on_oblique_planes) {
         for (int i = 0; i < 200; ++i) on += expect_faces(mesh, oracle, whole()).place == Place::on_surface ? 1 : 0;
     }
     EXPECT_GT(on, 8'000);
+}
+
+// Corners are floats, so that these weighted sums of them are exact in double: points of oblique planes whose computed
+// sides are not 0.
+TEST(Locate, a_computed_side_that_is_not_0_proves_nothing) {
+    Random random(6);
+    int computed = 0;
+    for (int i = 0; i < 2'000; ++i) {
+        const auto corner = [&] { return V(random.in_cube().cast<float>().cast<double>()); };
+        const V a = corner();
+        const V b = corner();
+        const V c = corner();
+        TriangleSoup<double> soup;
+        add_triangle(soup, a, b, c);
+        const CollisionMesh<double> mesh(soup.view());
+        const V p = a * 0.5 + b * 0.25 + c * 0.25;
+        computed += (b - a).cross(c - a).dot(a - p) != 0 ? 1 : 0;
+        ASSERT_EQ(mesh.locate(p).place, Place::on_surface) << p.transpose();
+        const V beside = a * 2 - b * 0.5 - c * 0.5;
+        ASSERT_EQ(mesh.locate(beside).place, mesh.contains(beside) ? Place::inside : Place::outside);
+    }
+    EXPECT_GT(computed, 500);
 }
 
 // Coordinates so far apart that only sums of products hold them all. Rounded sides say nothing there.
