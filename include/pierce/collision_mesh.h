@@ -109,8 +109,8 @@ class CollisionMesh {
 
     /// The first `out.size()` places where the segment passes through the surface or touches it, in exact order, the
     /// faces of each taken together (`Passage`). Returns how many there are in all, unless `count_all` is false. The
-    /// faces of passage p go to `faces[p.first_face]` and so on, `p.face_count` of them in order of (face, triangle), if
-    /// all of them fit. The time is that of one traversal for each 32 passages, and as much again for `faces`.
+    /// faces of passage p go to `faces[p.first_face]` and so on, `p.face_count` of them in order of (face, triangle),
+    /// if all of them fit. The time is that of one traversal for each 32 passages, and as much again for `faces`.
     std::size_t passages(const Segment<Scalar>& segment, std::span<Passage<Scalar>> out,
                          const PassageOptions& options = {}, std::span<FaceTouch> faces = {}) const noexcept;
 
@@ -129,12 +129,12 @@ class CollisionMesh {
                                   QueryCounters* counters = nullptr) const noexcept;
 
     /// Many questions in one call: `out[i]` is what the single call for number i gives, to the last bit, whatever the
-    /// executor. With the tree sixteen queries go on together, as in `first_hits`. `out` must be as long as the questions
-    /// are many; if it is not, std::invalid_argument is thrown.
+    /// executor. With the tree sixteen queries go on together, as in `first_hits`. `out` must be as long as the
+    /// questions are many; if it is not, std::invalid_argument is thrown.
     ///
     /// Returns the number of points that are contained; `out[i]` is 1 for these, else 0. Points that are given in no
-    /// order are sorted first: then this one and `winding_numbers` take 16 bytes of memory a point while they run, 16 MiB
-    /// at most. The others allocate nothing.
+    /// order are sorted first: then this one and `winding_numbers` take 16 bytes of memory a point while they run, 16
+    /// MiB at most. The others allocate nothing.
     std::size_t contains_points(std::span<const Vec3<Scalar>> points, std::span<std::uint8_t> out,
                                 const PlainBatchOptions& options = {}) const;
     void winding_numbers(std::span<const Vec3<Scalar>> points, std::span<int> out,

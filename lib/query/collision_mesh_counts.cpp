@@ -115,9 +115,8 @@ std::size_t CollisionMesh<Scalar>::all_hits(std::span<const Segment<Scalar>> seg
                  for (std::size_t i = first; i < last; ++i) {
                      const bool asked = is_asked(segments[i]);
                      invalid += asked ? 0 : 1;
-                     offsets[i + 1] = asked && !nothing
-                                          ? detail::all_hits(impl_->scene, segments[i], {}, options, counters)
-                                          : 0;
+                     offsets[i + 1] =
+                         asked && !nothing ? detail::all_hits(impl_->scene, segments[i], {}, options, counters) : 0;
                  }
                  return std::size_t{0};
              });
@@ -136,16 +135,16 @@ std::size_t CollisionMesh<Scalar>::all_hits(std::span<const Segment<Scalar>> seg
     return offsets.back();
 }
 
-#define PIERCE_COUNTS(Scalar)                                                                                          \
-    template std::size_t CollisionMesh<Scalar>::contains_points(std::span<const Vec3<Scalar>>, std::span<std::uint8_t>, \
-                                                                const PlainBatchOptions&) const;                       \
-    template void CollisionMesh<Scalar>::winding_numbers(std::span<const Vec3<Scalar>>, std::span<int>,                \
-                                                         const PlainBatchOptions&) const;                              \
-    template std::size_t CollisionMesh<Scalar>::locate_points(std::span<const Vec3<Scalar>>, std::span<Location>,      \
-                                                              const PlainBatchOptions&) const;                         \
-    template void CollisionMesh<Scalar>::crossings(std::span<const Segment<Scalar>>, std::span<int>,                   \
-                                                   const PlainBatchOptions&) const;                                    \
-    template std::size_t CollisionMesh<Scalar>::all_hits(std::span<const Segment<Scalar>>, std::span<std::size_t>,     \
+#define PIERCE_COUNTS(Scalar)                                                                                      \
+    template std::size_t CollisionMesh<Scalar>::contains_points(                                                   \
+        std::span<const Vec3<Scalar>>, std::span<std::uint8_t>, const PlainBatchOptions&) const;                   \
+    template void CollisionMesh<Scalar>::winding_numbers(std::span<const Vec3<Scalar>>, std::span<int>,            \
+                                                         const PlainBatchOptions&) const;                          \
+    template std::size_t CollisionMesh<Scalar>::locate_points(std::span<const Vec3<Scalar>>, std::span<Location>,  \
+                                                              const PlainBatchOptions&) const;                     \
+    template void CollisionMesh<Scalar>::crossings(std::span<const Segment<Scalar>>, std::span<int>,               \
+                                                   const PlainBatchOptions&) const;                                \
+    template std::size_t CollisionMesh<Scalar>::all_hits(std::span<const Segment<Scalar>>, std::span<std::size_t>, \
                                                          std::span<Hit<Scalar>>, const BatchOptions&) const
 PIERCE_COUNTS(float);
 PIERCE_COUNTS(double);

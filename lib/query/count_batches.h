@@ -15,7 +15,8 @@ struct PointRows {
     std::ptrdiff_t stride;
 };
 
-/// Segments `first` to `last`. Those that are not finite count as `invalid`. Returns the number of those that are not 0.
+/// Segments `first` to `last`. Those that are not finite count as `invalid`. Returns the number of those that are not
+/// 0.
 template <class Scalar>
 [[nodiscard]] [[gnu::noinline]] std::size_t crossings(const Scene<Scalar>& scene, const Ends<Scalar>& ends,
                                                       std::size_t first, std::size_t last, int* out,

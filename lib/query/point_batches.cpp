@@ -130,12 +130,13 @@ std::size_t winding_numbers(const Scene<Scalar>& scene, const PointRows<Scalar>&
     return ways.count;
 }
 
-#define PIERCE_POINTS(Scalar)                                                                                         \
-    template bool are_in_order(const Scene<Scalar>&, const PointRows<Scalar>&, std::size_t);                          \
-    template void key_points(const Scene<Scalar>&, const PointRows<Scalar>&, std::size_t, std::size_t, std::uint64_t*); \
-    template std::size_t winding_numbers(const Scene<Scalar>&, const PointRows<Scalar>&, const std::uint64_t*,        \
-                                         std::size_t, std::size_t, int*, QueryCounters&, std::size_t&);               \
-    template std::size_t winding_numbers(const Scene<Scalar>&, const PointRows<Scalar>&, const std::uint64_t*,        \
+#define PIERCE_POINTS(Scalar)                                                                                  \
+    template bool are_in_order(const Scene<Scalar>&, const PointRows<Scalar>&, std::size_t);                   \
+    template void key_points(const Scene<Scalar>&, const PointRows<Scalar>&, std::size_t, std::size_t,         \
+                             std::uint64_t*);                                                                  \
+    template std::size_t winding_numbers(const Scene<Scalar>&, const PointRows<Scalar>&, const std::uint64_t*, \
+                                         std::size_t, std::size_t, int*, QueryCounters&, std::size_t&);        \
+    template std::size_t winding_numbers(const Scene<Scalar>&, const PointRows<Scalar>&, const std::uint64_t*, \
                                          std::size_t, std::size_t, std::uint8_t*, QueryCounters&, std::size_t&)
 PIERCE_POINTS(float);
 PIERCE_POINTS(double);

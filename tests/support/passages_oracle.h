@@ -39,8 +39,10 @@ ExpectedPassages expected_passages(const MeshView<Scalar>& mesh, const Segment<S
         bool inside = true;
         for (std::uint8_t k = 0; k < 3; ++k) {
             if (judge.weight(k) < Q(0)) inside = false;
-            if (judge.weight(k) == Q(0)) ++zeros, zero = k;
-            else other = k;
+            if (judge.weight(k) == Q(0))
+                ++zeros, zero = k;
+            else
+                other = k;
         }
         if (!inside) continue;
         const Sides side = judge.from_side() > judge.to_side() ? Sides::front : Sides::back;
