@@ -8,6 +8,7 @@
 #include <pierce/mesh_view.h>
 #include <pierce/passage.h>
 #include <point.h>
+#include <support/boxes.h>
 #include <support/oracles.h>
 
 namespace pierce::test {
@@ -30,6 +31,7 @@ ExpectedPassages expected_passages(const MeshView<Scalar>& mesh, const Segment<S
         detail::Corners corners;
         for (std::size_t k = 0; k < 3; ++k) corners[k] = detail::to_point(mesh.positions[mesh.triangles[i][k]]);
         const detail::Path path = detail::to_path(segment);
+        if (boxes_apart(path, corners)) continue;
         const RationalOracle judge(path, corners);
         if (judge.from_side() == judge.to_side()) continue;
         if (judge.fraction() < Q(0) || judge.fraction() > Q(1) || judge.fraction() > Q(options.max_fraction)) continue;
