@@ -140,8 +140,8 @@ class PIERCE_EXPORT CollisionMesh {
 
     /// The first `out.size()` places where the segment passes through the surface or touches it, in exact order, the
     /// faces of each taken together (`Passage`). Returns how many there are in all, unless `count_all` is false. The
-    /// faces of passage p go to `faces[p.first_face]` and so on, `p.face_count` of them in order of (face, triangle), if
-    /// all of them fit. The time is that of one traversal for each 32 passages, and as much again for `faces`.
+    /// faces of passage p go to `faces[p.first_face]` and so on, `p.face_count` of them in order of (face, triangle),
+    /// if all of them fit. The time is that of one traversal for each 32 passages, and as much again for `faces`.
     std::size_t passages(const Segment<Scalar>& segment, std::span<Passage<Scalar>> out,
                          const PassageOptions& options = {}, std::span<FaceTouch> faces = {}) const noexcept;
 

@@ -19,16 +19,16 @@ enum class PassageKind : std::uint8_t { entering, leaving, grazing };
 ///
 /// A face counts when the segment leads through its plane, or up to it or away from it, and meets the closed triangle.
 /// A face along whose plane the segment runs does not count, but its neighbours do where the segment comes to them.
-/// Faces that the segment meets at exactly the same fraction are one passage: those around a vertex, the two of an edge,
-/// walls that coincide. All of it is decided as if in exact arithmetic.
+/// Faces that the segment meets at exactly the same fraction are one passage: those around a vertex, the two of an
+/// edge, walls that coincide. All of it is decided as if in exact arithmetic.
 ///
-/// Each face adds 1, -1 or 0 to `crossings` by the rule of `CollisionMesh::crossings`, which takes both ends as moved by
-/// the same infinitesimal step. So the `crossings` of all passages add up to those of the segment, always, and on a
+/// Each face adds 1, -1 or 0 to `crossings` by the rule of `CollisionMesh::crossings`, which takes both ends as moved
+/// by the same infinitesimal step. So the `crossings` of all passages add up to those of the segment, always, and on a
 /// closed mesh the winding number between two passages is that at `from` and the `crossings` of the passages before.
 ///
-/// Starts and ends on the surface: such a passage is there, with fraction 0 or 1. Whether it enters, leaves or grazes is
-/// decided by the infinitesimal step as well, not by where the segment goes next: of two segments, one that ends at a
-/// point of the surface and one that goes on from there, exactly one counts the passage through it. So a segment that
+/// Starts and ends on the surface: such a passage is there, with fraction 0 or 1. Whether it enters, leaves or grazes
+/// is decided by the infinitesimal step as well, not by where the segment goes next: of two segments, one that ends at
+/// a point of the surface and one that goes on from there, exactly one counts the passage through it. So a segment that
 /// rises from a floor that faces upwards starts with a grazing passage, and one that rises to a ceiling that faces
 /// downwards ends with an entering one.
 ///
@@ -77,8 +77,8 @@ struct Passage {
     bool at_end;
 };
 
-/// What counts, as in `QueryOptions`, for each face before faces are taken together. With these options left as they are
-/// all faces count.
+/// What counts, as in `QueryOptions`, for each face before faces are taken together. With these options left as they
+/// are all faces count.
 struct PassageOptions {
     /// `front`: only faces that the segment's direction leads through from the front.
     Sides sides = Sides::both;

@@ -9,9 +9,9 @@ namespace pierce::detail {
 /// equal. The path must hit both, or touch them (touch.h): its ends are not both on a plane, nor strictly on one side.
 [[nodiscard]] int compare_fractions(const Path& path, const Corners& first, const Corners& second);
 
-/// Whether two triangles, hit or touched by one path, certainly are so in the same point because they lie on one edge or one vertex, by its
-/// coordinates: a line that passes the plane of an edge meets it in one point. So their fractions are equal, and no
-/// arithmetic is needed.
+/// Whether two triangles, hit or touched by one path, certainly are so in the same point because they lie on one edge
+/// or one vertex, by its coordinates: a line that passes the plane of an edge meets it in one point. So their fractions
+/// are equal, and no arithmetic is needed.
 [[nodiscard]] bool same_place(const Corners& first, const Decision& one, const Corners& second, const Decision& two);
 
 /// Whether two triangles certainly lie in one plane across an axis, by their coordinates: then a path that hits both
@@ -24,7 +24,8 @@ namespace pierce::detail {
 /// Whether the exact fraction of a triangle that the path hits or touches is at most `limit`. NaN: no.
 [[nodiscard]] bool fraction_at_most(const Path& path, const Corners& corners, double limit);
 
-/// Fraction and barycentric weights of a triangle that is hit or touched, each within (1/2 + 2^-8) ulp of the true value.
+/// Fraction and barycentric weights of a triangle that is hit or touched, each within (1/2 + 2^-8) ulp of the true
+/// value.
 struct Measures {
     double fraction;
     Point barycentric;

@@ -38,10 +38,9 @@ Decision touch(const Point& point, const Corners& corners) {
         const Vector<N> p = on_lattice<N>(point, lattice);
         Vector<N> c[3];
         for (std::size_t k = 0; k < 3; ++k) c[k] = on_lattice<N>(corners[k], lattice);
-        return touch_in_plane([&](std::size_t axis) { return component_of_normal(c[0], c[1], c[2], axis); },
-                              [&](int k, std::size_t axis) {
-                                  return component_of_normal(c[(k + 1) % 3], c[(k + 2) % 3], p, axis);
-                              });
+        return touch_in_plane(
+            [&](std::size_t axis) { return component_of_normal(c[0], c[1], c[2], axis); },
+            [&](int k, std::size_t axis) { return component_of_normal(c[(k + 1) % 3], c[(k + 2) % 3], p, axis); });
     };
     const auto wide = [&] {
         if (WideVolumes(path, corners, lattice).from_side().sign() != 0) return Decision{};

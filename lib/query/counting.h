@@ -54,8 +54,8 @@ template <class Scalar>
     return false;
 }
 
-/// Where ways out of a box end: beyond its upper and its lower side along each axis, clearly outside. At the next number
-/// below 0 they would end among denormal numbers, and take the widest arithmetic.
+/// Where ways out of a box end: beyond its upper and its lower side along each axis, clearly outside. At the next
+/// number below 0 they would end among denormal numbers, and take the widest arithmetic.
 struct OutTargets {
     explicit OutTargets(const Box& box) {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -61,7 +61,7 @@ Location locate(const Scene<Scalar>& scene, const Vec3<Scalar>& at, std::span<Fa
     Location location;
     location.winding_number = winding_number(scene, at, counters);
     location.face_count = touches.total();
-    location.place = touches.total() > 0                ? Place::on_surface
+    location.place = touches.total() > 0            ? Place::on_surface
                      : location.winding_number != 0 ? Place::inside
                                                     : Place::outside;
     return location;

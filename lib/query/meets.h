@@ -103,8 +103,10 @@ class FirstPlaces {
             const std::size_t middle = (low + high) / 2;
             const int before = order(meet, places_[middle].first);
             if (before == 0) return {middle, true};
-            if (before < 0) high = middle;
-            else low = middle + 1;
+            if (before < 0)
+                high = middle;
+            else
+                low = middle + 1;
         }
         return {low, false};
     }

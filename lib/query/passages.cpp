@@ -34,8 +34,10 @@ bool meets(const Scene<Scalar>& scene, const Path& path, TriangleRef triangle, c
         meet.decision = exact.decision;
         meet.at_end = exact.at_end;
         meet.crossing = crossing(path, corners);
-        if (meet.at_end) meet.earliest = meet.latest = 1;
-        else set_exact_interval(path, corners, counters, meet);
+        if (meet.at_end)
+            meet.earliest = meet.latest = 1;
+        else
+            set_exact_interval(path, corners, counters, meet);
     }
     if (options.sides != Sides::both && options.sides != meet.decision.side) return false;
     const double most = options.max_fraction;
@@ -100,11 +102,13 @@ void write_faces(const Scene<Scalar>& scene, const Path& path, FirstPlaces<Scala
     if (passages.empty()) return;
     std::array<std::size_t, FirstPlaces<Scalar>::k_most> count{};
     const double last = places.kept()[passages.size() - 1].first.latest;
-    each_meet(scene, path, options, counters, [last] { return last; }, [&](const Meet& meet) {
-        const auto [at, same] = places.find(meet);
-        if (!same || at >= passages.size() || count[at] == passages[at].face_count) return;
-        faces[passages[at].first_face + count[at]++] = touch_of(scene, meet.triangle, meet.decision, meet.crossing);
-    });
+    each_meet(
+        scene, path, options, counters, [last] { return last; },
+        [&](const Meet& meet) {
+            const auto [at, same] = places.find(meet);
+            if (!same || at >= passages.size() || count[at] == passages[at].face_count) return;
+            faces[passages[at].first_face + count[at]++] = touch_of(scene, meet.triangle, meet.decision, meet.crossing);
+        });
     for (const Passage<Scalar>& passage : passages) {
         const auto row = faces.subspan(passage.first_face, passage.face_count);
         std::sort(row.begin(), row.end(), [](const FaceTouch& x, const FaceTouch& y) { return comes_before(x, y); });
@@ -117,10 +121,8 @@ template <class Scalar>
 std::size_t passages(const Scene<Scalar>& scene, const Segment<Scalar>& segment, std::span<Passage<Scalar>> out,
                      std::span<FaceTouch> faces, const PassageOptions& given, QueryCounters& counters) {
     const Path path = to_path(segment);
-    const QueryOptions options{.sides = given.sides,
-                               .max_fraction = given.max_fraction,
-                               .face_mask = given.face_mask,
-                               .accept = given.accept};
+    const QueryOptions options{
+        .sides = given.sides, .max_fraction = given.max_fraction, .face_mask = given.face_mask, .accept = given.accept};
     FirstPlaces<Scalar> places(scene, path, counters);
     std::size_t total = 0;
     std::size_t face_total = 0;
@@ -128,8 +130,9 @@ std::size_t passages(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
         const std::size_t first = std::min(total, out.size());
         if (!given.count_all && first == out.size()) return total;
         places.go_on(given.count_all ? places.k_most : out.size() - first);
-        each_meet(scene, path, options, counters, [&] { return places.limit(); },
-                  [&](const Meet& meet) { places.add(meet); });
+        each_meet(
+            scene, path, options, counters, [&] { return places.limit(); },
+            [&](const Meet& meet) { places.add(meet); });
         const std::span<const MeetingPlace> kept = places.kept();
         const std::span<Passage<Scalar>> here = out.subspan(first, std::min(kept.size(), out.size() - first));
         for (std::size_t i = 0; i < here.size(); ++i) {

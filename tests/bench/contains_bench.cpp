@@ -1,6 +1,7 @@
 // What a batch of `contains` gains over single calls on one thread, on meshes that do not fit a core's own caches: 64^3
 // points of a grid through the mesh's box. Prints a table, and the least ratios: `ratio ours.contains VALUE` where the
-// points are in random order, so that single calls wait for memory, `ratio ours.contains.grid VALUE` in the grid's order.
+// points are in random order, so that single calls wait for memory, `ratio ours.contains.grid VALUE` in the grid's
+// order.
 //   contains_bench [FILE...]      meshes to add to the sphere of 2 million triangles, in the table only
 #include <algorithm>
 #include <cstdlib>
@@ -89,7 +90,8 @@ Gains gains(const TriangleSoup<Scalar>& soup, const std::string& name) {
 
 int main(int argc, char** argv) {
     using namespace pierce;
-    std::cout << "| mesh, order of points | MB | inside | single, ns | batch, ns | ratio |\n|---|---|---|---|---|---|\n";
+    std::cout
+        << "| mesh, order of points | MB | inside | single, ns | batch, ns | ratio |\n|---|---|---|---|---|---|\n";
     const TriangleSoup<double> sphere = test::bumpy_sphere(500);
     const bench::Gains one = bench::gains(test::moved<float>(sphere, 1, {0, 0, 0}), "sphere, float");
     const bench::Gains two = bench::gains(sphere, "sphere, double");

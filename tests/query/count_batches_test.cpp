@@ -13,8 +13,8 @@ namespace {
 
 using V = Vec3<double>;
 
-/// Points of all kinds: anywhere in and around the mesh, on its faces, edges and corners, and not finite; and those of a
-/// grid. Few are in its order, many in no order, so that they are sorted.
+/// Points of all kinds: anywhere in and around the mesh, on its faces, edges and corners, and not finite; and those of
+/// a grid. Few are in its order, many in no order, so that they are sorted.
 template <class Scalar>
 std::vector<Vec3<Scalar>> batch_points(const MeshView<Scalar>& mesh, std::size_t count, std::uint64_t seed) {
     std::vector<Vec3<Scalar>> points;

@@ -84,8 +84,8 @@ TEST(Passages, measure_what_lies_in_solid_matter) {
         if (depth > 0) solid += (segment.to - last).norm();
         return solid;
     };
-    EXPECT_EQ(solid_part({V(-1, 1, 1), V(7, 1, 1)}), 4);    // on diagonals of faces
-    EXPECT_EQ(solid_part({V(1, 1, 1), V(5, 1, 1)}), 2);     // from inside to inside
+    EXPECT_EQ(solid_part({V(-1, 1, 1), V(7, 1, 1)}), 4);  // on diagonals of faces
+    EXPECT_EQ(solid_part({V(1, 1, 1), V(5, 1, 1)}), 2);   // from inside to inside
     EXPECT_EQ(solid_part({V(-1, 0.5, 1), V(7, 0.5, 1)}), 4);
     EXPECT_EQ(solid_part({V(-1, 3, 1), V(7, 3, 1)}), 0);
     EXPECT_NEAR(solid_part({V(-1, -1, 1), V(3, 3, 1)}), 2 * std::sqrt(2.0), 1e-15);

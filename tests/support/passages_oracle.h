@@ -8,6 +8,7 @@
 #include <pierce/mesh_view.h>
 #include <pierce/passage.h>
 #include <point.h>
+#include <support/boxes.h>
 #include <support/oracles.h>
 
 namespace pierce::test {
@@ -30,6 +31,7 @@ ExpectedPassages expected_passages(const MeshView<Scalar>& mesh, const Segment<S
         detail::Corners corners;
         for (std::size_t k = 0; k < 3; ++k) corners[k] = detail::to_point(mesh.positions[mesh.triangles[i][k]]);
         const detail::Path path = detail::to_path(segment);
+        if (boxes_apart(path, corners)) continue;
         const RationalOracle judge(path, corners);
         if (judge.from_side() == judge.to_side()) continue;
         if (judge.fraction() < Q(0) || judge.fraction() > Q(1) || judge.fraction() > Q(options.max_fraction)) continue;
@@ -39,8 +41,10 @@ ExpectedPassages expected_passages(const MeshView<Scalar>& mesh, const Segment<S
         bool inside = true;
         for (std::uint8_t k = 0; k < 3; ++k) {
             if (judge.weight(k) < Q(0)) inside = false;
-            if (judge.weight(k) == Q(0)) ++zeros, zero = k;
-            else other = k;
+            if (judge.weight(k) == Q(0))
+                ++zeros, zero = k;
+            else
+                other = k;
         }
         if (!inside) continue;
         const Sides side = judge.from_side() > judge.to_side() ? Sides::front : Sides::back;
