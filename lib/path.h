@@ -13,8 +13,8 @@ using Point = std::array<double, 3>;
 /// The corners of a triangle, counter-clockwise seen from its front.
 using Corners = std::array<Point, 3>;
 
-/// What a query goes along: from `from` to `to`, or for a ray from `from` to `from + to`, a sum that need not be a number.
-/// Fractions are of that way. Of a ray it has a finite length, whatever the ray's (query/ray_path.h).
+/// What a query goes along: from `from` to `to`, or for a ray from `from` to `from + to`, a sum that need not be a
+/// number. Fractions are of that way. Of a ray it has a finite length, whatever the ray's (query/ray_path.h).
 struct Path {
     Point from;
     Point to;

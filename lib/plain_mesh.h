@@ -31,10 +31,12 @@ class MadePlain {
 
   public:
     MadePlain(const MeshView<Scalar>& mesh, const Executor& executor)
-        : mesh_{plain(mesh.positions.data(), mesh.positions.stride(), mesh.positions.size(), positions_,
-                      [&](std::size_t i, Scalar* to) { copy(mesh.positions[i].data(), to); }, executor),
-                plain(mesh.triangles.data(), mesh.triangles.stride(), mesh.triangles.size(), triangles_,
-                      [&](std::size_t i, std::uint32_t* to) { copy(mesh.triangles[i].data(), to); }, executor),
+        : mesh_{plain(
+                    mesh.positions.data(), mesh.positions.stride(), mesh.positions.size(), positions_,
+                    [&](std::size_t i, Scalar* to) { copy(mesh.positions[i].data(), to); }, executor),
+                plain(
+                    mesh.triangles.data(), mesh.triangles.stride(), mesh.triangles.size(), triangles_,
+                    [&](std::size_t i, std::uint32_t* to) { copy(mesh.triangles[i].data(), to); }, executor),
                 mesh.faces} {}
     MadePlain(const MadePlain&) = delete;
     MadePlain& operator=(const MadePlain&) = delete;

@@ -30,17 +30,17 @@ namespace pierce {
 /// What was built, and what was odd about it. Bytes are those the library holds, all of them counted.
 struct MeshStatistics {
     std::size_t vertices = 0;
-    std::size_t faces = 0;      ///< of the caller: different numbers in `MeshView::faces`
+    std::size_t faces = 0;  ///< of the caller: different numbers in `MeshView::faces`
     std::size_t triangles = 0;
-    std::size_t degenerate = 0; ///< triangles of area exactly zero: kept, and never hit
-    std::size_t clusters = 0;        ///< records of up to eight triangles
+    std::size_t degenerate = 0;  ///< triangles of area exactly zero: kept, and never hit
+    std::size_t clusters = 0;    ///< records of up to eight triangles
     Broadphase broadphase = Broadphase::tree;
-    std::size_t nodes = 0;           ///< of the tree; 0 with a grid
-    double cell_size = 0;            ///< of the grid; 0 with a tree
-    std::size_t grid_references = 0; ///< entries of all its cell lists together
-    std::string_view backend;        ///< the instruction set of the wide kernels; empty if nothing was built
-    std::size_t bytes = 0;           ///< 0 if nothing was built
-    std::uint64_t invalid_queries = 0; ///< queries so far with a coordinate that is NaN or infinite: they had no hit
+    std::size_t nodes = 0;              ///< of the tree; 0 with a grid
+    double cell_size = 0;               ///< of the grid; 0 with a tree
+    std::size_t grid_references = 0;    ///< entries of all its cell lists together
+    std::string_view backend;           ///< the instruction set of the wide kernels; empty if nothing was built
+    std::size_t bytes = 0;              ///< 0 if nothing was built
+    std::uint64_t invalid_queries = 0;  ///< queries so far with a coordinate that is NaN or infinite: they had no hit
 };
 
 /// Triangles in a broadphase (`BuildOptions`). Copies what it needs of the mesh.
@@ -92,7 +92,8 @@ class PIERCE_EXPORT CollisionMesh {
     /// `point` has no hit, so that a chain of rays from point to point cannot get through a closed surface. A ray costs
     /// what the part of it in the mesh's box costs. (Templates, so that `first_hit({from, to})` is a segment.)
     template <std::same_as<Ray<Scalar>> Way>
-    [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Way& ray, const QueryOptions& options = {}) const noexcept {
+    [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Way& ray,
+                                                       const QueryOptions& options = {}) const noexcept {
         return first_hit_of_ray(ray, options);
     }
     template <std::same_as<Ray<Scalar>> Way>
@@ -108,8 +109,8 @@ class PIERCE_EXPORT CollisionMesh {
         return crossings_of_ray(ray, counters);
     }
 
-    /// A point moves in a straight line from `step.from` to `step.to`: when and where does it first run into the mesh? If
-    /// the answer is empty it may be moved to `to`; otherwise to the hit's `point`, and never further. The hit's
+    /// A point moves in a straight line from `step.from` to `step.to`: when and where does it first run into the mesh?
+    /// If the answer is empty it may be moved to `to`; otherwise to the hit's `point`, and never further. The hit's
     /// `fraction` is the time of impact: the part of the step after which the point is still certainly outside.
     [[nodiscard]] std::optional<Hit<Scalar>> sweep(const Segment<Scalar>& step,
                                                    const QueryOptions& options = {}) const noexcept {
@@ -164,8 +165,8 @@ class PIERCE_EXPORT CollisionMesh {
     /// in the same way.
     ///
     /// Returns the number of points that are contained; `out[i]` is 1 for these, else 0. Points that are given in no
-    /// order are sorted first: then this one and `winding_numbers` take 16 bytes of memory a point while they run, 16 MiB
-    /// at most. The others allocate nothing.
+    /// order are sorted first: then this one and `winding_numbers` take 16 bytes of memory a point while they run, 16
+    /// MiB at most. The others allocate nothing.
     std::size_t contains_points(const PointsView<Scalar>& points, std::span<std::uint8_t> out,
                                 QueryCounters* counters = nullptr, const Executor& executor = {}) const;
     void winding_numbers(const PointsView<Scalar>& points, std::span<int> out, QueryCounters* counters = nullptr,

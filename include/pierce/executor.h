@@ -14,8 +14,7 @@ namespace pierce {
 class Task {
   public:
     template <class Callable>
-        requires(!std::is_same_v<std::remove_cvref_t<Callable>, Task>)
-    Task(Callable&& callable)
+    requires(!std::is_same_v<std::remove_cvref_t<Callable>, Task>) Task(Callable&& callable)
         : callable_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
           call_([](void* c, std::size_t part) { (*static_cast<std::remove_reference_t<Callable>*>(c))(part); }) {}
 
@@ -31,19 +30,18 @@ class Task {
 /// depend on it, not in one bit. `pierce/tbb.h` has one for oneTBB.
 ///
 /// It keeps what it is made of: a function pointer, or a lambda or other object of up to four pointers that is copied
-/// byte by byte and does not change when it is called. What is larger, owns memory or changes is refused by the compiler
-/// unless it is wrapped in `std::ref`; then it has to live as long as the executor is used.
+/// byte by byte and does not change when it is called. What is larger, owns memory or changes is refused by the
+/// compiler unless it is wrapped in `std::ref`; then it has to live as long as the executor is used.
 class Executor {
     using Kept = detail::SmallCallable<void(std::size_t, Task)>;
 
   public:
     Executor() = default;
     template <class Callable>
-        requires(Kept::keeps<Callable>)
-    Executor(const Callable& callable) : kept_(callable) {}
+    requires(Kept::keeps<Callable>) Executor(const Callable& callable) : kept_(callable) {}
     template <class Callable>
-        requires(!Kept::keeps<Callable> && std::is_invocable_v<Callable&, std::size_t, Task>)
-    Executor(const Callable&) = delete;  // too large, not trivially copyable, or changing: wrap it in std::ref
+    requires(!Kept::keeps<Callable> && std::is_invocable_v<Callable&, std::size_t, Task>) Executor(const Callable&)
+    = delete;  // too large, not trivially copyable, or changing: wrap it in std::ref
 
     explicit operator bool() const { return static_cast<bool>(kept_); }
     void operator()(std::size_t parts, Task task) const {

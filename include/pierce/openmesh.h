@@ -1,6 +1,6 @@
 // OpenMesh triangle meshes: their faces for a `CollisionMesh`, the handles that a hit stands for, and a half-edge mesh
-// made of a soup. Needs OpenMeshCore. Of a point type it uses only `vector_traits` and `[]`. Compiles with -fno-exceptions
-// and -fno-rtti, but OpenMesh's own meshes (9.0) need both, exceptions and type information.
+// made of a soup. Needs OpenMeshCore. Of a point type it uses only `vector_traits` and `[]`. Compiles with
+// -fno-exceptions and -fno-rtti, but OpenMesh's own meshes (9.0) need both, exceptions and type information.
 #pragma once
 
 #include <array>
@@ -28,8 +28,9 @@ namespace pierce {
 /// What pierce works in for a type of mesh: float where that holds every coordinate the mesh can have (float itself and
 /// integers of 8 or 16 bits), otherwise double.
 template <class Mesh>
-using OpenMeshScalar = std::conditional_t<std::numeric_limits<typename Mesh::Scalar>::digits <=
-                                              std::numeric_limits<float>::digits, float, double>;
+using OpenMeshScalar =
+    std::conditional_t<std::numeric_limits<typename Mesh::Scalar>::digits <= std::numeric_limits<float>::digits, float,
+                       double>;
 
 /// The faces of a mesh that are not deleted, in the order of their handles; garbage need not have been collected.
 ///
@@ -88,7 +89,9 @@ To exact_coordinate(From value, std::size_t vertex, char axis) {
     std::ostringstream text;
     text.precision(std::numeric_limits<From>::max_digits10);
     text << "vertex " << vertex << ": its " << axis << " coordinate, " << value << ", is not exactly representable in "
-         << (std::is_same_v<To, double> ? "double" : std::is_same_v<To, float> ? "float" : "the type of the mesh");
+         << (std::is_same_v<To, double>  ? "double"
+             : std::is_same_v<To, float> ? "float"
+                                         : "the type of the mesh");
     throw_mesh_error(text.str());
 }
 

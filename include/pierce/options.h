@@ -16,8 +16,8 @@ namespace pierce {
 /// How the triangles near a segment are found. The answers are the same, to the last bit.
 enum class Broadphase : std::uint8_t {
     automatic,  ///< what the environment variable PIERCE_BROADPHASE says, `tree` or `grid`; without it the tree
-    tree,  ///< a tree of boxes with sixteen children a node: the faster one, whatever the mesh and the segments
-    grid,  ///< one uniform grid, for meshes whose triangles are about as large as one another
+    tree,       ///< a tree of boxes with sixteen children a node: the faster one, whatever the mesh and the segments
+    grid,       ///< one uniform grid, for meshes whose triangles are about as large as one another
 };
 
 /// None of these changes an answer: they trade memory and build time for query time.
@@ -55,22 +55,22 @@ struct QueryCounters {
 
 /// A hit before it is weighed against others: what `QueryOptions::accept` is asked about.
 struct Contact {
-    std::uint32_t face;      ///< the caller's number
+    std::uint32_t face;  ///< the caller's number
     std::uint32_t triangle;
-    Sides side;              ///< front or back
+    Sides side;  ///< front or back
     Feature feature;
     std::uint8_t feature_index;
     bool at_start;
-    double fraction;         ///< within 1 ulp, not verified
+    double fraction;  ///< within 1 ulp, not verified
     Vec3<double> barycentric;
 };
 
 /// Something that is called with a `Contact` and says whether it counts: a lambda, say, that looks up a texture.
 ///
 /// It keeps what it is made of: a function pointer, or a lambda or other object of up to four pointers that is copied
-/// byte by byte and does not change when it is called. What is larger, owns memory or changes is refused by the compiler
-/// unless it is wrapped in `std::ref`; then it has to live as long as the options are used, as does what a lambda
-/// captures by reference.
+/// byte by byte and does not change when it is called. What is larger, owns memory or changes is refused by the
+/// compiler unless it is wrapped in `std::ref`; then it has to live as long as the options are used, as does what a
+/// lambda captures by reference.
 ///
 /// It may be asked about the same face more than once, also for the shortened segment to the point that is being
 /// verified, so its answer must depend on the contact only. It must not throw.
@@ -80,11 +80,10 @@ class Accept {
   public:
     Accept() = default;
     template <class Callable>
-        requires(Kept::keeps<Callable>)
-    Accept(const Callable& callable) : kept_(callable) {}
+    requires(Kept::keeps<Callable>) Accept(const Callable& callable) : kept_(callable) {}
     template <class Callable>
-        requires(!Kept::keeps<Callable> && std::is_invocable_r_v<bool, Callable&, const Contact&>)
-    Accept(const Callable&) = delete;  // too large, not trivially copyable, or changing: wrap it in std::ref
+    requires(!Kept::keeps<Callable> && std::is_invocable_r_v<bool, Callable&, const Contact&>) Accept(const Callable&)
+    = delete;  // too large, not trivially copyable, or changing: wrap it in std::ref
 
     explicit operator bool() const { return static_cast<bool>(kept_); }
     bool operator()(const Contact& contact) const { return kept_(contact); }
@@ -96,10 +95,10 @@ class Accept {
 /// For a single query or a batch of them. A hit that an option leaves out hides nothing behind it: the answer is as if
 /// it were not there.
 struct QueryOptions {
-    /// The side that a segment must come from to hit a triangle. The front by default: a closed mesh is left and entered
-    /// then by one rule that has no exceptions, and the physics engines that take one-sided meshes (PhysX, Jolt, Unity)
-    /// have the same default; Embree, Bullet and Godot count both. A mesh whose triangles are clockwise seen from outside
-    /// needs `back`, and one that is open, or of mixed orientation, `both`.
+    /// The side that a segment must come from to hit a triangle. The front by default: a closed mesh is left and
+    /// entered then by one rule that has no exceptions, and the physics engines that take one-sided meshes (PhysX,
+    /// Jolt, Unity) have the same default; Embree, Bullet and Godot count both. A mesh whose triangles are clockwise
+    /// seen from outside needs `back`, and one that is open, or of mixed orientation, `both`.
     Sides sides = Sides::front;
     /// Only hits whose exact fraction, or t of a ray, is at most this count. NaN: no hit.
     double max_fraction = std::numeric_limits<double>::infinity();

@@ -55,8 +55,8 @@ struct Passage {
     Coordinates<Scalar> position;
     /// Unit normal of `face`, pointing to its front. Each component within 4 ulp of 1.
     Coordinates<Scalar> normal;
-    /// The face that stands for all of them: that of the smallest number (`MeshView::faces`), then triangle, among those
-    /// that are passed from the front where the passage enters, from the back where it leaves.
+    /// The face that stands for all of them: that of the smallest number (`MeshView::faces`), then triangle, among
+    /// those that are passed from the front where the passage enters, from the back where it leaves.
     std::uint32_t face;
     /// Its place in `MeshView::triangles`.
     std::uint32_t triangle;

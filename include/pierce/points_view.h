@@ -17,7 +17,7 @@ concept SpanOf = std::convertible_to<const Range&, std::span<const Element>>;
 
 /// Whether a matrix has points as columns that are one number after the other in memory.
 template <class Matrix, class Scalar>
-concept HasColumns = std::same_as<typename Matrix::Scalar, Scalar> && (Matrix::Flags & Eigen::DirectAccessBit) != 0 &&
+concept HasColumns = std::same_as<typename Matrix::Scalar, Scalar> &&(Matrix::Flags& Eigen::DirectAccessBit) != 0 &&
                      (Matrix::RowsAtCompileTime == 3 || Matrix::RowsAtCompileTime == Eigen::Dynamic) &&
                      Matrix::InnerStrideAtCompileTime == 1 && !Matrix::IsRowMajor;
 
@@ -25,8 +25,8 @@ concept HasColumns = std::same_as<typename Matrix::Scalar, Scalar> && (Matrix::F
 
 /// `size()` points; a point is three numbers in a row, and from one point to the next is a fixed number of bytes, which
 /// may be any, negative as well: a `std::vector<Vec3<Scalar>>`, the columns of an Eigen matrix with three rows (or of a
-/// block or map of one), the vertex buffer of a game, an array of NumPy. A view in double takes floats too; one in float
-/// refuses doubles, which it would have to round. Not owned, nothing is copied.
+/// block or map of one), the vertex buffer of a game, an array of NumPy. A view in double takes floats too; one in
+/// float refuses doubles, which it would have to round. Not owned, nothing is copied.
 template <class Scalar>
 class PointsView {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
@@ -37,20 +37,19 @@ class PointsView {
     /// `stride`: bytes from one point's first number to the next one's. They need no alignment.
     PointsView(const Scalar* first, std::size_t size, std::ptrdiff_t stride = 3 * sizeof(Scalar))
         : first_(reinterpret_cast<const std::byte*>(first)), size_(size), stride_(stride) {}
-    PointsView(const float* first, std::size_t size, std::ptrdiff_t stride = 3 * sizeof(float))
-        requires std::same_as<Scalar, double>
+    PointsView(const float* first, std::size_t size,
+               std::ptrdiff_t stride = 3 * sizeof(float)) requires std::same_as<Scalar, double>
         : first_(reinterpret_cast<const std::byte*>(first)), size_(size), stride_(stride), widens_(true) {}
 
     template <detail::SpanOf<Vec3<Scalar>> Range>
     PointsView(const Range& points) : PointsView(first_of(std::span<const Vec3<Scalar>>(points)), std::size(points)) {}
     template <detail::SpanOf<Vec3<float>> Range>
-        requires std::same_as<Scalar, double>
-    PointsView(const Range& points) : PointsView(first_of(std::span<const Vec3<float>>(points)), std::size(points)) {}
+    requires std::same_as<Scalar, double> PointsView(const Range& points)
+        : PointsView(first_of(std::span<const Vec3<float>>(points)), std::size(points)) {}
 
     /// The columns of a matrix, which must have three rows.
     template <class Matrix>
-        requires detail::HasColumns<Matrix, Scalar>
-    PointsView(const Eigen::MatrixBase<Matrix>& columns)
+    requires detail::HasColumns<Matrix, Scalar> PointsView(const Eigen::MatrixBase<Matrix>& columns)
         : PointsView(columns.derived().data(), static_cast<std::size_t>(columns.cols()),
                      columns.derived().outerStride() * static_cast<std::ptrdiff_t>(sizeof(Scalar))) {
         eigen_assert(columns.rows() == 3);
@@ -60,9 +59,7 @@ class PointsView {
     [[nodiscard]] bool empty() const { return size_ == 0; }
     [[nodiscard]] std::ptrdiff_t stride() const { return stride_; }
     /// Where the first point is; null where it is a float of a view in double.
-    [[nodiscard]] const Scalar* data() const {
-        return widens_ ? nullptr : reinterpret_cast<const Scalar*>(first_);
-    }
+    [[nodiscard]] const Scalar* data() const { return widens_ ? nullptr : reinterpret_cast<const Scalar*>(first_); }
     /// Points `first` up to `first + count`, without that.
     [[nodiscard]] PointsView part(std::size_t first, std::size_t count) const {
         PointsView some = *this;

@@ -8,9 +8,9 @@
 namespace pierce {
 
 /// All points `origin + t * direction` with t from 0 to `limit`, taken as the exact real numbers that they are: no
-/// direction is normalised, and no end is computed and rounded. So it is not the segment from `origin` to
-/// `origin + limit * direction` as a program computes it, but decided by the same rules: what counts is whether the true
-/// end lies strictly behind the face's plane; a ray that ends on a face has not hit it yet (`Hit`).
+/// direction is normalised, and no end is computed and rounded. So it is not the segment from `origin` to `origin +
+/// limit * direction` as a program computes it, but decided by the same rules: what counts is whether the true end lies
+/// strictly behind the face's plane; a ray that ends on a face has not hit it yet (`Hit`).
 ///
 /// `limit` may be infinite, as it is where it is left out. A direction of length zero and a limit of 0 hit nothing. A
 /// coordinate that is not finite, and a limit that is negative or NaN, make the ray invalid: it has no hit, and

@@ -14,7 +14,7 @@ inline constexpr std::size_t k_callable_room = 4 * sizeof(void*);
 /// the object has to outlive its use.
 template <class Callable>
 inline constexpr bool is_small_v = sizeof(Callable) <= k_callable_room && alignof(Callable) <= alignof(void*) &&
-                                   std::is_trivially_copyable_v<Callable> && std::is_trivially_destructible_v<Callable>;
+                                   std::is_trivially_copyable_v<Callable>&& std::is_trivially_destructible_v<Callable>;
 
 template <class Signature>
 class SmallCallable;
@@ -26,11 +26,11 @@ class SmallCallable<Result(Arguments...)> {
     template <class Callable>
     static constexpr bool takes = std::is_invocable_r_v<Result, const std::decay_t<Callable>&, Arguments...>;
     template <class Callable>
-    static constexpr bool keeps = takes<Callable> && is_small_v<std::decay_t<Callable>>;
+    static constexpr bool keeps = takes<Callable>&& is_small_v<std::decay_t<Callable>>;
 
     SmallCallable() = default;
     template <class Callable>
-        requires keeps<Callable>
+    requires keeps<Callable>
     explicit SmallCallable(const Callable& callable)
         : call_([](const void* room, Arguments... arguments) -> Result {
               return (*std::launder(static_cast<const std::decay_t<Callable>*>(room)))(

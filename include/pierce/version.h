@@ -17,7 +17,7 @@
 namespace pierce {
 
 /// "major.minor.patch".
-inline constexpr std::string_view version = PIERCE_TEXT(PIERCE_VERSION_MAJOR) "." PIERCE_TEXT(
-    PIERCE_VERSION_MINOR) "." PIERCE_TEXT(PIERCE_VERSION_PATCH);
+inline constexpr std::string_view version =
+    PIERCE_TEXT(PIERCE_VERSION_MAJOR) "." PIERCE_TEXT(PIERCE_VERSION_MINOR) "." PIERCE_TEXT(PIERCE_VERSION_PATCH);
 
 }  // namespace pierce

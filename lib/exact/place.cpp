@@ -27,8 +27,8 @@ struct Ranks {
     }
 };
 
-// One coordinate of a hit: (B from + A end) / (A + B), A and B being the magnitudes of the ends' volumes. The end is `to`,
-// or of a ray from + to.
+// One coordinate of a hit: (B from + A end) / (A + B), A and B being the magnitudes of the ends' volumes. The end is
+// `to`, or of a ray from + to.
 class Coordinate {
   public:
     // The coordinate is not below `low`, and not above `high`.
@@ -141,8 +141,7 @@ Point exact_position(const Path& path, const Corners& corners) {
             high = std::min(high, std::max(from, to));
         }
         const double near = path.ray ? from + to * fraction : from * (1 - fraction) + to * fraction;
-        position[k] =
-            Coordinate(a, b, lattice, path, k, low, high).rounded<Scalar>(std::clamp(near, low, high));
+        position[k] = Coordinate(a, b, lattice, path, k, low, high).rounded<Scalar>(std::clamp(near, low, high));
     }
     return position;
 }

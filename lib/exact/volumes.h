@@ -127,9 +127,9 @@ class WideVolumes {
 
   private:
     // Adds (b - a) x (c - a) . (x - a), which is minus the determinant of the rows (p, 1), p = a, b, c, x; for a
-    // direction x, (b - a) x (c - a) . x, its row is (x, 0). By Laplace along two pairs of columns, x y and z w: for each
-    // pair of rows i < j with the others k < l, (-1)^(i+j+1) (x_i y_j - x_j y_i) (z_k w_l - z_l w_k). x is always the
-    // last row of its pair.
+    // direction x, (b - a) x (c - a) . x, its row is (x, 0). By Laplace along two pairs of columns, x y and z w: for
+    // each pair of rows i < j with the others k < l, (-1)^(i+j+1) (x_i y_j - x_j y_i) (z_k w_l - z_l w_k). x is always
+    // the last row of its pair.
     static void add_volume(const OddPoint& a, const OddPoint& b, const OddPoint& c, const OddPoint& x, bool direction,
                            Accumulator& sum) {
         const auto rows = [&sum](bool minus, const OddPoint& i, const OddPoint& j, const Odd& k, const Odd& l) {

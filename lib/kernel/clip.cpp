@@ -3,14 +3,14 @@
 // In scene units, relative to Frame::low, the scene is in [0, 2]. The start is from * unit - low exactly (underflow:
 // 2^-1074, less than the noise), and so is a segment's end; the way is e R, with R a power of two and e of a size
 // between 1 and 2 that is within 2^-106 of itself; a ray's end is off by 2^-102 of what it is the sum of. From the end
-// that is nearer to the scene on, points are q + r e. The slab test takes q rounded to double, so its bounds are widened
-// by more than that loses; where q is far it says no more than that r is to begin at `in`, and the same is asked from
-// q + in e on. A step takes 48 bits or more off the distance: three are enough for 2^100 scenes. `in` and `out` are
-// within 2^-50 of themselves, which moves a point by less than 2^-47 of the last step; nothing that is within an eighth
-// of the scene less the noise is lost.
-// What is lost in the place of points: four operations a step, 2^-100 of the distance of the nearer end each
-// (double_double.h), and 2^-51 of the origin, which is near, where it is rounded. That is added to the noise. Nearer
-// ends that are 2^76 scenes away make boxes be told apart less and less well, and from 2^100 on everything is visited.
+// that is nearer to the scene on, points are q + r e. The slab test takes q rounded to double, so its bounds are
+// widened by more than that loses; where q is far it says no more than that r is to begin at `in`, and the same is
+// asked from q + in e on. A step takes 48 bits or more off the distance: three are enough for 2^100 scenes. `in` and
+// `out` are within 2^-50 of themselves, which moves a point by less than 2^-47 of the last step; nothing that is within
+// an eighth of the scene less the noise is lost. What is lost in the place of points: four operations a step, 2^-100 of
+// the distance of the nearer end each (double_double.h), and 2^-51 of the origin, which is near, where it is rounded.
+// That is added to the noise. Nearer ends that are 2^76 scenes away make boxes be told apart less and less well, and
+// from 2^100 on everything is visited.
 #include <kernel/clip.h>
 
 #include <algorithm>

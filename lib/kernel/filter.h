@@ -21,9 +21,9 @@ void measure_path(const Corners& corners, const Path& path, Measured& measured) 
     const auto pairs = [](const Point& x, const Point& y) {
         return Triple<Pair>{Pair{x[0], y[0]}, Pair{x[1], y[1]}, Pair{x[2], y[2]}};
     };
-    measure_lines<Scalar>({pairs(corners[1], corners[0]), pairs(corners[2], path.to), pairs(corners[0], path.from),
-                           kept_of(path.ray)},
-                          measured);
+    measure_lines<Scalar>(
+        {pairs(corners[1], corners[0]), pairs(corners[2], path.to), pairs(corners[0], path.from), kept_of(path.ray)},
+        measured);
     if (path.wild) measured.tame = false;
 }
 

@@ -2,7 +2,8 @@
 // derivation for both, and one set of volumes for the filter's decision and for all values of a hit.
 //
 // Moller and Trumbore's determinants (1997), relative to corner a. Edges p = b - a and q = c - a, start o = a - from,
-// direction d = to - from, of a ray what it is given, n = p x q, r = o x d. From o = t d - weight_b p - weight_c q by Cramer's rule:
+// direction d = to - from, of a ray what it is given, n = p x q, r = o x d. From o = t d - weight_b p - weight_c q by
+// Cramer's rule:
 //   s = d . n,  v = o . n,  w_b = r . q,  w_c = -r . p,  w_a = s - w_b - w_c;  fraction v / s, weights w / s
 //   the start's side is that of -v, the end's that of s - v.
 // They come in pairs: n and r are (p | o) x (q | d), s and w_b are (d | q) . (n | r), v and -w_c are (o | p) . (n | r).
@@ -37,8 +38,8 @@ struct Meeting {
     Number vc;              ///< (v | -w_c)
 };
 
-/// What goes in: (b | a), (c | to), (a | from). `kept`: what of (a | from) is taken from (c | to), all bits of a lane or
-/// none: of a ray `to` is the direction itself.
+/// What goes in: (b | a), (c | to), (a | from). `kept`: what of (a | from) is taken from (c | to), all bits of a lane
+/// or none: of a ray `to` is the direction itself.
 struct Lines {
     Triple<Pair> ba, ct, af;
     PairMask kept;

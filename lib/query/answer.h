@@ -26,7 +26,7 @@ struct OtherWays {
     const Shortlist* list;  ///< null: none was kept
 
     mutable Nearby* nearby = nullptr;  ///< where many near places are asked about
-    mutable unsigned last = 0;  ///< of the list, what stopped a way: likely to stop the next one too
+    mutable unsigned last = 0;         ///< of the list, what stopped a way: likely to stop the next one too
 
     [[nodiscard]] bool hides(const Point& point) const { return nearby != nullptr && nearby->hides(point); }
     [[nodiscard]] bool clear(const Point& point, bool near) const {
@@ -55,9 +55,8 @@ struct OtherWays {
         const Path way{path.from, point};
         FirstOther<Scalar, Passed> first(scene, way, counters, passed, own);
         if (nearby != nullptr && nearby->knows(point)) {
-            nearby->each([&](TriangleRef triangle) {
-                test_triangle<Kernel>(scene, way, triangle, options, counters, first);
-            });
+            nearby->each(
+                [&](TriangleRef triangle) { test_triangle<Kernel>(scene, way, triangle, options, counters, first); });
         } else if (list != nullptr && list->complete) {
             for (unsigned i = 0; i < list->count; ++i) test(way, i, first);
         } else {

@@ -9,7 +9,8 @@
 namespace pierce::detail {
 
 /// Throws std::invalid_argument, naming the call and both numbers.
-inline void check_sizes(const char* call, std::size_t one, const char* of_one, std::size_t other, const char* of_other) {
+inline void check_sizes(const char* call, std::size_t one, const char* of_one, std::size_t other,
+                        const char* of_other) {
     if (one == other) return;
     throw std::invalid_argument(std::string(call) + ": " + std::to_string(one) + ' ' + of_one + " and " +
                                 std::to_string(other) + ' ' + of_other);

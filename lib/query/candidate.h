@@ -13,8 +13,8 @@ struct Candidate : Filtered {
     Measured measured;  ///< by the path that hits it
 };
 
-/// The order of two triangles that a path meets, whose intervals overlap: as `compare_fractions`. Duplicates and hits in
-/// one place, common in what people model, take no exact arithmetic.
+/// The order of two triangles that a path meets, whose intervals overlap: as `compare_fractions`. Duplicates and hits
+/// in one place, common in what people model, take no exact arithmetic.
 [[nodiscard]] inline int order_of_places(const Path& path, const Corners& x, const Decision& one, const Corners& y,
                                          const Decision& two, QueryCounters& counters) {
     if (x == y || same_place(x, one, y, two) || in_one_axis_plane(x, y)) return 0;
@@ -28,7 +28,8 @@ template <class Scalar>
                                   QueryCounters& counters) {
     if (x.latest < y.earliest) return -1;
     if (y.latest < x.earliest) return 1;
-    return order_of_places(path, scene.corners(x.triangle), x.decision, scene.corners(y.triangle), y.decision, counters);
+    return order_of_places(path, scene.corners(x.triangle), x.decision, scene.corners(y.triangle), y.decision,
+                           counters);
 }
 
 /// Whether x comes before y: by the exact fraction, then the caller's face number, then the triangle.

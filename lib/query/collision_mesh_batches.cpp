@@ -94,16 +94,16 @@ std::size_t CollisionMesh<Scalar>::any_hits_of_rays(const Rays<Scalar>& rays, st
     return all_any<Impl, Scalar>(*impl_, rays, out, options, executor);
 }
 
-#define PIERCE_BATCHES(Scalar)                                                                                        \
-    template std::size_t CollisionMesh<Scalar>::first_hits(const Segments<Scalar>&, const HitsOut<Scalar>&,           \
-                                                           const QueryOptions&, const Executor&) const;               \
-    template std::size_t CollisionMesh<Scalar>::sweeps(const Segments<Scalar>&, const HitsOut<Scalar>&,               \
-                                                       const QueryOptions&, const Executor&) const;                   \
-    template std::size_t CollisionMesh<Scalar>::any_hits(const Segments<Scalar>&, std::span<std::uint8_t>,            \
-                                                         const QueryOptions&, const Executor&) const;                 \
-    template std::size_t CollisionMesh<Scalar>::first_hits_of_rays(const Rays<Scalar>&, const HitsOut<Scalar>&,       \
-                                                                   const QueryOptions&, const Executor&) const;       \
-    template std::size_t CollisionMesh<Scalar>::any_hits_of_rays(const Rays<Scalar>&, std::span<std::uint8_t>,        \
+#define PIERCE_BATCHES(Scalar)                                                                                  \
+    template std::size_t CollisionMesh<Scalar>::first_hits(const Segments<Scalar>&, const HitsOut<Scalar>&,     \
+                                                           const QueryOptions&, const Executor&) const;         \
+    template std::size_t CollisionMesh<Scalar>::sweeps(const Segments<Scalar>&, const HitsOut<Scalar>&,         \
+                                                       const QueryOptions&, const Executor&) const;             \
+    template std::size_t CollisionMesh<Scalar>::any_hits(const Segments<Scalar>&, std::span<std::uint8_t>,      \
+                                                         const QueryOptions&, const Executor&) const;           \
+    template std::size_t CollisionMesh<Scalar>::first_hits_of_rays(const Rays<Scalar>&, const HitsOut<Scalar>&, \
+                                                                   const QueryOptions&, const Executor&) const; \
+    template std::size_t CollisionMesh<Scalar>::any_hits_of_rays(const Rays<Scalar>&, std::span<std::uint8_t>,  \
                                                                  const QueryOptions&, const Executor&) const
 PIERCE_BATCHES(float);
 PIERCE_BATCHES(double);

@@ -26,11 +26,11 @@ std::size_t all_winding(const Impl& impl, const PointsView<Scalar>& points, std:
                         const Executor& executor) {
     const Scene<Scalar>& scene = impl.scene;
     const auto answer = [&](const PointsView<Scalar>& some, const std::uint64_t* entries, Out* answers) {
-        return in_parts(some.size(), given, executor, [&](std::size_t count) { impl.count_invalid(count); },
-                        [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
-                            return detail::winding_numbers(scene, some, entries, first, last, answers, counters,
-                                                           invalid);
-                        });
+        return in_parts(
+            some.size(), given, executor, [&](std::size_t count) { impl.count_invalid(count); },
+            [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
+                return detail::winding_numbers(scene, some, entries, first, last, answers, counters, invalid);
+            });
     };
     const StandardArithmetic standard;
     if (points.size() < k_least_sorted || are_in_order(scene, points)) return answer(points, nullptr, out.data());
@@ -53,10 +53,11 @@ std::size_t all_winding(const Impl& impl, const PointsView<Scalar>& points, std:
 template <class Impl, class Scalar>
 void all_crossings(const Impl& impl, const Ways<Scalar>& ways, std::span<int> out, QueryCounters* given,
                    const Executor& executor) {
-    in_parts(ways.size(), given, executor, [&](std::size_t count) { impl.count_invalid(count); },
-             [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
-                 return detail::crossings(impl.scene, ways, first, last, out.data(), counters, invalid);
-             });
+    in_parts(
+        ways.size(), given, executor, [&](std::size_t count) { impl.count_invalid(count); },
+        [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
+            return detail::crossings(impl.scene, ways, first, last, out.data(), counters, invalid);
+        });
 }
 
 template <class Impl, class Scalar>
@@ -65,31 +66,31 @@ std::size_t all_rows(const Impl& impl, const Ways<Scalar>& ways, std::span<std::
     offsets[0] = 0;
     const bool nothing = asks_nothing(options);
     const auto hits_of = [&](std::size_t i, std::span<Hit<Scalar>> row, QueryCounters& counters) {
-        return ways.with(i, [&](const auto& way) {
-            return detail::all_hits(impl.scene, way, row, options, counters);
-        });
+        return ways.with(i, [&](const auto& way) { return detail::all_hits(impl.scene, way, row, options, counters); });
     };
     // Each row's length is put where the row ends.
-    in_parts(ways.size(), options.counters, executor, [&](std::size_t count) { impl.count_invalid(count); },
-             [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
-                 for (std::size_t i = first; i < last; ++i) {
-                     const bool asked = ways.is_valid(i);
-                     invalid += asked ? 0 : 1;
-                     offsets[i + 1] = asked && !nothing ? hits_of(i, {}, counters) : 0;
-                 }
-                 return std::size_t{0};
-             });
+    in_parts(
+        ways.size(), options.counters, executor, [&](std::size_t count) { impl.count_invalid(count); },
+        [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
+            for (std::size_t i = first; i < last; ++i) {
+                const bool asked = ways.is_valid(i);
+                invalid += asked ? 0 : 1;
+                offsets[i + 1] = asked && !nothing ? hits_of(i, {}, counters) : 0;
+            }
+            return std::size_t{0};
+        });
     for (std::size_t i = 0; i < ways.size(); ++i) offsets[i + 1] += offsets[i];
     if (hits.empty() || offsets.back() == 0) return offsets.back();
-    in_parts(ways.size(), options.counters, executor, [](std::size_t) {},
-             [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t&) {
-                 counters.queries = 0;  // counted before
-                 for (std::size_t i = first; i < last && offsets[i + 1] <= hits.size(); ++i) {
-                     const std::span row = hits.subspan(offsets[i], offsets[i + 1] - offsets[i]);
-                     if (!row.empty()) hits_of(i, row, counters);
-                 }
-                 return std::size_t{0};
-             });
+    in_parts(
+        ways.size(), options.counters, executor, [](std::size_t) {},
+        [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t&) {
+            counters.queries = 0;  // counted before
+            for (std::size_t i = first; i < last && offsets[i + 1] <= hits.size(); ++i) {
+                const std::span row = hits.subspan(offsets[i], offsets[i + 1] - offsets[i]);
+                if (!row.empty()) hits_of(i, row, counters);
+            }
+            return std::size_t{0};
+        });
     return offsets.back();
 }
 
@@ -113,11 +114,12 @@ template <class Scalar>
 std::size_t CollisionMesh<Scalar>::locate_points(const PointsView<Scalar>& points, std::span<Location> out,
                                                  QueryCounters* given, const Executor& executor) const {
     check_sizes("locate_points", points.size(), "points", out.size(), "places for answers");
-    return in_parts(out.size(), given, executor, [&](std::size_t count) { impl_->count_invalid(count); },
-                    [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
-                        return detail::locate(impl_->scene, points.part(first, last - first), out.data() + first,
-                                              counters, invalid);
-                    });
+    return in_parts(
+        out.size(), given, executor, [&](std::size_t count) { impl_->count_invalid(count); },
+        [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
+            return detail::locate(impl_->scene, points.part(first, last - first), out.data() + first, counters,
+                                  invalid);
+        });
 }
 
 template <class Scalar>
@@ -166,9 +168,9 @@ std::size_t CollisionMesh<Scalar>::all_hits_of_rays(const Rays<Scalar>& rays, st
     template std::size_t CollisionMesh<Scalar>::all_hits(const Segments<Scalar>&, std::span<std::size_t>,              \
                                                          std::span<Hit<Scalar>>, const QueryOptions&, const Executor&) \
         const;                                                                                                         \
-    template std::size_t CollisionMesh<Scalar>::all_hits_of_rays(const Rays<Scalar>&, std::span<std::size_t>,          \
-                                                                 std::span<Hit<Scalar>>, const QueryOptions&,          \
-                                                                 const Executor&) const
+    template std::size_t CollisionMesh<Scalar>::all_hits_of_rays(                                                      \
+        const Rays<Scalar>&, std::span<std::size_t>, std::span<Hit<Scalar>>, const QueryOptions&, const Executor&)     \
+        const
 PIERCE_COUNTS(float);
 PIERCE_COUNTS(double);
 #undef PIERCE_COUNTS

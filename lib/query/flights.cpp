@@ -119,8 +119,7 @@ class InFlight {
             Path path;
             sink_.clear(i);
             if (!batch_.read_path(i, path)) continue;
-            if (!make_probe(batch_.scene, path, options.sides, std::min(1.0, path.most), probe, limit))
-                continue;
+            if (!make_probe(batch_.scene, path, options.sides, std::min(1.0, path.most), probe, limit)) continue;
             slot.query.emplace(batch_, path, sink_, i);
             slot.probe = &probe;
             slot.limit = limit;
@@ -132,12 +131,12 @@ class InFlight {
     float visit(unsigned at, std::uint32_t cluster, unsigned lanes) {
         Slot& slot = slots_[at];
         Query& query = *slot.query;
-        return slot.limit = use_cluster(batch_.scene, *slot.probe, cluster, lanes, slot.limit, batch_.counters,
-                                        [&](ClusterRef which, unsigned bits) {
-                                            return test_cluster<Certified>(batch_.scene, query.path, which, bits,
-                                                                           batch_.options, batch_.counters,
-                                                                           query.collector);
-                                        });
+        return slot.limit =
+                   use_cluster(batch_.scene, *slot.probe, cluster, lanes, slot.limit, batch_.counters,
+                               [&](ClusterRef which, unsigned bits) {
+                                   return test_cluster<Certified>(batch_.scene, query.path, which, bits, batch_.options,
+                                                                  batch_.counters, query.collector);
+                               });
     }
 
     void finish(unsigned at) {
@@ -167,8 +166,8 @@ std::size_t run(Batch<Scalar> batch, const typename Query::Sink& sink) {
 
 template <class Scalar>
 std::size_t first_hits(const Scene<Scalar>& scene, const Ways<Scalar>& ways, std::size_t first, std::size_t last,
-                       const HitsOut<Scalar>& out, const QueryOptions& options,
-                       QueryCounters& counters, std::size_t& invalid) {
+                       const HitsOut<Scalar>& out, const QueryOptions& options, QueryCounters& counters,
+                       std::size_t& invalid) {
     return with_sink(out, [&](const auto& sink) {
         return run<FirstQuery<Scalar, std::decay_t<decltype(sink)>>>(
             Batch<Scalar>{scene, ways, first, last, options, counters, invalid}, sink);
@@ -178,8 +177,7 @@ std::size_t first_hits(const Scene<Scalar>& scene, const Ways<Scalar>& ways, std
 template <class Scalar>
 std::size_t any_hits(const Scene<Scalar>& scene, const Ways<Scalar>& ways, std::size_t first, std::size_t last,
                      std::uint8_t* out, const QueryOptions& options, QueryCounters& counters, std::size_t& invalid) {
-    return run<AnyQuery<Scalar>>(Batch<Scalar>{scene, ways, first, last, options, counters, invalid},
-                                 AnyAnswers{out});
+    return run<AnyQuery<Scalar>>(Batch<Scalar>{scene, ways, first, last, options, counters, invalid}, AnyAnswers{out});
 }
 
 template std::size_t first_hits(const Scene<float>&, const Ways<float>&, std::size_t, std::size_t,

@@ -68,8 +68,8 @@ Location locate(const Scene<Scalar>& scene, const Vec3<Scalar>& at, std::span<Fa
 }
 
 template <class Scalar>
-std::size_t locate(const Scene<Scalar>& scene, const PointsView<Scalar>& points, Location* out,
-                   QueryCounters& counters, std::size_t& invalid) {
+std::size_t locate(const Scene<Scalar>& scene, const PointsView<Scalar>& points, Location* out, QueryCounters& counters,
+                   std::size_t& invalid) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         out[i] = {};
@@ -86,7 +86,6 @@ std::size_t locate(const Scene<Scalar>& scene, const PointsView<Scalar>& points,
 template Location locate(const Scene<float>&, const Vec3<float>&, std::span<FaceTouch>, QueryCounters&);
 template Location locate(const Scene<double>&, const Vec3<double>&, std::span<FaceTouch>, QueryCounters&);
 template std::size_t locate(const Scene<float>&, const PointsView<float>&, Location*, QueryCounters&, std::size_t&);
-template std::size_t locate(const Scene<double>&, const PointsView<double>&, Location*, QueryCounters&,
-                            std::size_t&);
+template std::size_t locate(const Scene<double>&, const PointsView<double>&, Location*, QueryCounters&, std::size_t&);
 
 }  // namespace pierce::detail

@@ -26,8 +26,7 @@ namespace pierce::detail {
 template <class Ways>
 class Nearby {
   public:
-    explicit Nearby(const Ways& ways)
-        : ways_(ways), unit_(ways.scene.grain / k_grain_units), per_unit_(1 / unit_) {
+    explicit Nearby(const Ways& ways) : ways_(ways), unit_(ways.scene.grain / k_grain_units), per_unit_(1 / unit_) {
         ways.nearby = this;
     }
     ~Nearby() { ways_.nearby = nullptr; }

@@ -64,7 +64,8 @@ class PlaceSearch {
         }
     }
 
-    /// Sets `fraction` and `point`; `below`: less than the true fraction, as the caller's parameter. Returns how many points were not clear.
+    /// Sets `fraction` and `point`; `below`: less than the true fraction, as the caller's parameter. Returns how many
+    /// points were not clear.
     int find(double below, Hit<Scalar>& hit) {
         if (!find_near(hit))
             find_back(below, hit);

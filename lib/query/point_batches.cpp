@@ -120,12 +120,13 @@ std::size_t winding_numbers(const Scene<Scalar>& scene, const PointsView<Scalar>
     return ways.count;
 }
 
-#define PIERCE_POINTS(Scalar)                                                                                         \
-    template bool are_in_order(const Scene<Scalar>&, const PointsView<Scalar>&);                                       \
-    template void key_points(const Scene<Scalar>&, const PointsView<Scalar>&, std::size_t, std::size_t, std::uint64_t*); \
-    template std::size_t winding_numbers(const Scene<Scalar>&, const PointsView<Scalar>&, const std::uint64_t*,        \
-                                         std::size_t, std::size_t, int*, QueryCounters&, std::size_t&);               \
-    template std::size_t winding_numbers(const Scene<Scalar>&, const PointsView<Scalar>&, const std::uint64_t*,        \
+#define PIERCE_POINTS(Scalar)                                                                                   \
+    template bool are_in_order(const Scene<Scalar>&, const PointsView<Scalar>&);                                \
+    template void key_points(const Scene<Scalar>&, const PointsView<Scalar>&, std::size_t, std::size_t,         \
+                             std::uint64_t*);                                                                   \
+    template std::size_t winding_numbers(const Scene<Scalar>&, const PointsView<Scalar>&, const std::uint64_t*, \
+                                         std::size_t, std::size_t, int*, QueryCounters&, std::size_t&);         \
+    template std::size_t winding_numbers(const Scene<Scalar>&, const PointsView<Scalar>&, const std::uint64_t*, \
                                          std::size_t, std::size_t, std::uint8_t*, QueryCounters&, std::size_t&)
 PIERCE_POINTS(float);
 PIERCE_POINTS(double);

@@ -2,9 +2,9 @@
 // or past what limits it.
 //
 // Any such length gives the same answers: a triangle that the ray hits lies in the box, so at a parameter t below
-// 2^exponent the ray has been at each point of the box that it comes to, and the end of the path is strictly behind each
-// plane that it passed. Limits are compared with exactly: of the nearest one, limit 2^-exponent is at least a half, or
-// it was scaled up.
+// 2^exponent the ray has been at each point of the box that it comes to, and the end of the path is strictly behind
+// each plane that it passed. Limits are compared with exactly: of the nearest one, limit 2^-exponent is at least a
+// half, or it was scaled up.
 #include <query/ray_path.h>
 
 #include <algorithm>

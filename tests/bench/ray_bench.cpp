@@ -1,6 +1,6 @@
 // What an endless ray costs beside the segment that a caller clips to the mesh's box by hand: `ours.ray` is the
-// segment's time over the ray's, single calls, medians of interleaved repetitions. Arguments: mesh files; without any, a
-// bumpy sphere.
+// segment's time over the ray's, single calls, medians of interleaved repetitions. Arguments: mesh files; without any,
+// a bumpy sphere.
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -41,11 +41,10 @@ std::vector<Pair<Scalar>> pairs(const MeshView<Scalar>& mesh) {
         double exit = HUGE_VAL;
         for (int k = 0; k < 3; ++k) {
             const double side = direction[k] > 0 ? extent.high[k] : extent.low[k];
-            if (direction[k] != 0)
-                exit = std::min(exit, (side - double{origin[k]}) / double{direction[k]});
+            if (direction[k] != 0) exit = std::min(exit, (side - double{origin[k]}) / double{direction[k]});
         }
-        const Vec3<double> to = origin.template cast<double>() +
-                                1.0001 * std::max(exit, 0.0) * direction.template cast<double>();
+        const Vec3<double> to =
+            origin.template cast<double>() + 1.0001 * std::max(exit, 0.0) * direction.template cast<double>();
         out.push_back({{origin, direction}, {origin, to.template cast<Scalar>()}});
     }
     return out;

@@ -127,9 +127,7 @@ TYPED_TEST(MakeClusters, AllSizesOfScenes) {
     expect_sound(teapot_in_stadium<TypeParam>(20000, 1e-5).view(), "teapot");
 }
 
-TYPED_TEST(MakeClusters, AllSizesInOneScene) {
-    expect_sound(nested_soup_of_all_sizes<TypeParam>(12).view(), "nested");
-}
+TYPED_TEST(MakeClusters, AllSizesInOneScene) { expect_sound(nested_soup_of_all_sizes<TypeParam>(12).view(), "nested"); }
 
 TYPED_TEST(MakeClusters, OneTriangleAgainAndAgain) {
     TriangleSoup<TypeParam> soup;

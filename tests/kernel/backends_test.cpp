@@ -6,8 +6,8 @@
 
 #include <cluster/frame.h>
 #include <cluster/morton_key.h>
-#include <gtest/gtest.h>
 #include <exact/fraction.h>
+#include <gtest/gtest.h>
 #include <kernel/backends.h>
 #include <kernel/filter.h>
 #include <pierce/collision_mesh.h>
@@ -141,8 +141,8 @@ class Judge {
     /// What the kernels leave up to a fraction of the segment.
     unsigned left(const Path& path, Sides sides, double fraction) {
         Probe<Scalar> probe;
-        if (!kernels_.set_probe(frame_, path.from.data(), path.to.data(), path.ray, sides == Sides::front, sides == Sides::back,
-                                probe))
+        if (!kernels_.set_probe(frame_, path.from.data(), path.to.data(), path.ray, sides == Sides::front,
+                                sides == Sides::back, probe))
             return 0;
         const float limit = parameter(probe, fraction);
         return limit < 0 ? 0 : kernels_.test_cluster(probe, records_.data(), cluster_, limit);
@@ -208,9 +208,12 @@ void refuse(const Backend& backend, std::int64_t decisions, int lowest_power, in
             const auto family = static_cast<Family>(random.below(k_family_names.size()));
             int power = random.between_ints(-20, 20);
             const double kind = random.unit();
-            if (kind < 0.1) power = random.between_ints(lowest_power, lowest_power + 60);
-            else if (kind < 0.2) power = random.between_ints(highest_power - 30, highest_power);
-            else if (kind < 0.3) power = random.between_ints(-60, -30);  // floats' volumes underflow, not lengths
+            if (kind < 0.1)
+                power = random.between_ints(lowest_power, lowest_power + 60);
+            else if (kind < 0.2)
+                power = random.between_ints(highest_power - 30, highest_power);
+            else if (kind < 0.3)
+                power = random.between_ints(-60, -30);  // floats' volumes underflow, not lengths
             judge.judge(family, power, random.chance(0.6) ? 0 : random.chance(0.5) ? 1e2 : 1e6);
         }
     };

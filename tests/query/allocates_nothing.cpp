@@ -49,8 +49,9 @@ void check() {
     expect_none("first_hits", [&] { mesh.first_hits(segments, hits); });
     expect_none("first_hits with options", [&] { mesh.first_hits(segments, hits, options, reversed); });
     expect_none("any_hits", [&] { mesh.any_hits(segments, any, options, reversed); });
-    expect_none("first_hits of blocks",
-                [&] { mesh.first_hits({state.topRows(3), state.middleRows(3, 3)}, hits, options, reversed); });
+    expect_none("first_hits of blocks", [&] {
+        mesh.first_hits({state.topRows(3), state.middleRows(3, 3)}, hits, options, reversed);
+    });
     expect_none("sweeps to plain hits", [&] { mesh.sweeps(segments, plain, options, reversed); });
     expect_none("first_hits to arrays", [&] { mesh.first_hits(segments, arrays, options, reversed); });
     std::array<Hit<Scalar>, 8> all;

@@ -45,8 +45,8 @@ TEST(BroadphaseChoice, refuses_what_there_is_not) {
             chosen(Broadphase::automatic);
             ADD_FAILURE() << wrong << " is not refused";
         } catch (const std::invalid_argument& error) {
-            for (const std::string& part : {"'" + wrong + "'", std::string("PIERCE_BROADPHASE"), std::string("tree"),
-                                            std::string("grid")})
+            for (const std::string& part :
+                 {"'" + wrong + "'", std::string("PIERCE_BROADPHASE"), std::string("tree"), std::string("grid")})
                 EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
         }
     }

@@ -15,9 +15,10 @@ using Q = RationalOracle::Q;
 
 V in_cube(Random& random) { return random.in_cube(); }
 
-// Two faces that meet in an edge, some units in the last place to a part of their size apart, and segments that end on the edge, or a little beyond it,
-// from starts between the faces. In some 0.3 % of these no near place is clear, and points back along the way are taken:
-// their rounding led behind the hit's own face, which nothing else asks about: 373 of 112,000 ways were hit.
+// Two faces that meet in an edge, some units in the last place to a part of their size apart, and segments that end on
+// the edge, or a little beyond it, from starts between the faces. In some 0.3 % of these no near place is clear, and
+// points back along the way are taken: their rounding led behind the hit's own face, which nothing else asks about: 373
+// of 112,000 ways were hit.
 template <class Scalar>
 void check_wedges(double offset) {
     Random random(41);
@@ -84,8 +85,8 @@ TEST(ClearWays, normals_are_unit_vectors_at_any_size) {
     }
 }
 
-// A flat face, and clear places straight off it: at 2^1014 and above units were counted by way of 2^60 of them, which is
-// infinite, and among subnormal numbers a grain was asked for and a little more.
+// A flat face, and clear places straight off it: at 2^1014 and above units were counted by way of 2^60 of them, which
+// is infinite, and among subnormal numbers a grain was asked for and a little more.
 TEST(ClearWays, places_are_near_at_any_size) {
     for (const int exponent : {-1030, -1022, -1021, -1020, -900, 0, 900, 1013, 1014, 1015, 1016, 1020, 1022}) {
         const double size = std::ldexp(1.0, exponent);

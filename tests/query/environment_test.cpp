@@ -161,13 +161,14 @@ void expect_no_trap() {
             const bool good = &s == &both[0];
             const bool found = mesh.first_hit(s).has_value();
             const bool some = mesh.any_hit(s);
-            const std::size_t count =
-                mesh.all_hits(s, all) + static_cast<std::size_t>(mesh.sweep(s).has_value());
+            const std::size_t count = mesh.all_hits(s, all) + static_cast<std::size_t>(mesh.sweep(s).has_value());
             const bool inside = mesh.contains(s.from);
             const int crossed = mesh.crossings(s);
             const std::size_t faces = mesh.explain(s).size();
-            if (good) hit = found && some && count == 2 && !inside && crossed == 0 && faces > 0;
-            else refused = refused && !found && !some && count == 0 && !inside && crossed == 0 && faces == 0;
+            if (good)
+                hit = found && some && count == 2 && !inside && crossed == 0 && faces > 0;
+            else
+                refused = refused && !found && !some && count == 0 && !inside && crossed == 0 && faces == 0;
         }
         refused = refused && !mesh.first_hit(through, nothing) && !mesh.any_hit(through, nothing) &&
                   mesh.all_hits(through, all, nothing) == 0;

@@ -20,8 +20,8 @@ TriangleSoup<double> sheet(double width) {
     constexpr int k_side = 10;
     for (int i = 0; i <= k_side; ++i)
         for (int j = 0; j <= k_side; ++j)
-            soup.positions.push_back(
-                width * V(i / double(k_side) - 0.5, j / double(k_side) - 0.5, 0.001 * (i * j % 3)));
+            soup.positions.push_back(width *
+                                     V(i / double(k_side) - 0.5, j / double(k_side) - 0.5, 0.001 * (i * j % 3)));
     for (std::uint32_t i = 0; i < k_side; ++i)
         for (std::uint32_t j = 0; j < k_side; ++j) {
             const std::uint32_t a = i * (k_side + 1) + j;

@@ -3,8 +3,8 @@
 #include <map>
 #include <set>
 
-#include <gtest/gtest.h>
 #include <exact/decide.h>
+#include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
 #include <query/mesh_report.h>
 #include <query/report_notes.h>
@@ -188,10 +188,10 @@ detail::TJunctionCounters counters_of(const TriangleSoup<double>& soup, std::siz
 // square root in a plane.
 TEST(MeshReportNaive, borders_cost_what_they_pass) {
     struct Case {
-        double size;     ///< of a triangle
-        double height;   ///< of the mesh
-        double growth;   ///< of boxes per edge, where there are 16 times the edges
-        double first;    ///< boxes per edge of the smaller mesh, at most
+        double size;    ///< of a triangle
+        double height;  ///< of the mesh
+        double growth;  ///< of boxes per edge, where there are 16 times the edges
+        double first;   ///< boxes per edge of the smaller mesh, at most
     };
     for (const Case& c : {Case{0.01, 1, 1.5, 40}, Case{1, 1, 3.1, 120}, Case{1, 0, 4.6, 190}}) {
         std::array<double, 2> boxes{};

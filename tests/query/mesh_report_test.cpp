@@ -132,9 +132,8 @@ TEST(MeshReport, finds_t_junctions_also_where_they_were_rounded) {
             const V b = a + direction * scale;
             const V up = V(0, 1, 5) * scale;
             const V m = a + (b - a) / 3;
-            const TriangleSoup<double> soup{{a, b, m, b + up, a + up, a - up},
-                                            {{0, 2, 4}, {2, 3, 4}, {2, 1, 3}, {1, 0, 5}},
-                                            {}};
+            const TriangleSoup<double> soup{
+                {a, b, m, b + up, a + up, a - up}, {{0, 2, 4}, {2, 3, 4}, {2, 1, 3}, {1, 0, 5}}, {}};
             const MeshReport r = report(moved<float>(soup, 1, V(0, 0, 0)));
             EXPECT_EQ(r.t_junctions, 1U) << scale << ' ' << direction.transpose();
             EXPECT_EQ(r.t_junction_list, std::vector<std::uint32_t>{2});

@@ -1,5 +1,6 @@
 // A user's program that is compiled without exceptions and without type information: the headers' own code included, it
-// does what it does elsewhere. (Not with OpenMesh, whose meshes need both.) Ends with status 1 and a line for each thing that is not so.
+// does what it does elsewhere. (Not with OpenMesh, whose meshes need both.) Ends with status 1 and a line for each
+// thing that is not so.
 #include <array>
 #include <cstdint>
 #include <cstdio>

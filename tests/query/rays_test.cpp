@@ -1,8 +1,8 @@
 // Rays against an oracle of exact rationals: directions that no segment can express, limits from the least number to
 // infinity and on faces, in all sizes of numbers; and particles that fly by rays and must stay inside.
 //
-// A ray used to be a segment to origin + limit * direction, which rounds: at a limit of 1e9 mesh sizes the end of a float
-// ray is off by tens of mesh sizes, and a ray aimed at a vertex by way of a direction missed it.
+// A ray used to be a segment to origin + limit * direction, which rounds: at a limit of 1e9 mesh sizes the end of a
+// float ray is off by tens of mesh sizes, and a ray aimed at a vertex by way of a direction missed it.
 #include <gtest/gtest.h>
 
 #include <pierce/pierce.h>
@@ -56,7 +56,8 @@ class RaySource {
             case 1:
                 return lattice_point();
             case 2:  // far away
-                return (size_ * std::ldexp(1.0, random_.between_ints(3, 40)) * random_.in_cube()).template cast<Scalar>();
+                return (size_ * std::ldexp(1.0, random_.between_ints(3, 40)) * random_.in_cube())
+                    .template cast<Scalar>();
             case 3:  // in a face
                 return ((some_vertex() + some_vertex()) / 2).eval();
             default:
@@ -147,12 +148,12 @@ std::size_t judge(std::size_t rounds, std::size_t count_each, std::uint64_t seed
             int crossings = 0;
             for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
                 const auto [a, b, c] = soup.triangles[t];
-                const RayMeeting meeting = oracle.meet({soup.positions[a], soup.positions[b], soup.positions[c]},
-                                                       asked.options.sides);
+                const RayMeeting meeting =
+                    oracle.meet({soup.positions[a], soup.positions[b], soup.positions[c]}, asked.options.sides);
                 crossings += meeting.crossing;
                 ++decisions;
-                if (meeting.hit && (std::isinf(asked.options.max_fraction) ||
-                                    meeting.parameter <= asked.options.max_fraction))
+                if (meeting.hit &&
+                    (std::isinf(asked.options.max_fraction) || meeting.parameter <= asked.options.max_fraction))
                     expected.emplace_back(meeting, t);
             }
             std::stable_sort(expected.begin(), expected.end(),

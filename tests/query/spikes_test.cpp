@@ -1,8 +1,7 @@
 // The tips of thin spikes, seen from inside: no place near the hit is clear, and some 2,000 are asked about. Each took
-// a test of all the faces that meet there, 0.5 ms a hit with 3 faces and 30 ms with 200; now what is certain of a face's
-// shadow is not tested (query/nearby.h). Counted are full tests of a triangle, which a kernel of the test's own sees.
-// The judges are the naive twin, which knows no shadows, and exact arithmetic.
-#include <Eigen/Geometry>
+// a test of all the faces that meet there, 0.5 ms a hit with 3 faces and 30 ms with 200; now what is certain of a
+// face's shadow is not tested (query/nearby.h). Counted are full tests of a triangle, which a kernel of the test's own
+// sees. The judges are the naive twin, which knows no shadows, and exact arithmetic.
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
 #include <pierce/triangle_soup.h>
@@ -10,6 +9,7 @@
 #include <support/expect_hit.h>
 #include <support/meshes.h>
 #include <support/naive.h>
+#include <Eigen/Geometry>
 
 namespace pierce::test {
 namespace {
@@ -145,18 +145,10 @@ void expect_naive_answers_of_both(std::uint32_t faces, int meshes, int segments)
     expect_naive_answers<double>(faces, meshes, segments);
 }
 
-TEST(Spikes, naive_answers_with_3_faces) {
-    expect_naive_answers_of_both(3, 40, 40);
-}
-TEST(Spikes, naive_answers_with_12_faces) {
-    expect_naive_answers_of_both(12, 20, 20);
-}
-TEST(Spikes, naive_answers_with_50_faces) {
-    expect_naive_answers_of_both(50, 10, 10);
-}
-TEST(Spikes, naive_answers_with_200_faces) {
-    expect_naive_answers_of_both(200, 5, 10);
-}
+TEST(Spikes, naive_answers_with_3_faces) { expect_naive_answers_of_both(3, 40, 40); }
+TEST(Spikes, naive_answers_with_12_faces) { expect_naive_answers_of_both(12, 20, 20); }
+TEST(Spikes, naive_answers_with_50_faces) { expect_naive_answers_of_both(50, 10, 10); }
+TEST(Spikes, naive_answers_with_200_faces) { expect_naive_answers_of_both(200, 5, 10); }
 
 // What a shadow says is so: for triangles of all shapes and starts close to their planes, of places within parts of a
 // unit of planes, edges and corners.

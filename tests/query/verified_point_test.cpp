@@ -7,7 +7,6 @@
 // end is, every other test passed: random meshes have no triangles within a rounding of a segment. Here there are
 // blades, planes through two points that are within some roundings of the segment, and planes through its start. The
 // judge is the naive twin.
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
 #include <pierce/triangle_soup.h>
@@ -15,6 +14,7 @@
 #include <support/meshes.h>
 #include <support/naive.h>
 #include <support/random.h>
+#include <Eigen/Geometry>
 
 namespace pierce::test {
 namespace {
@@ -54,9 +54,7 @@ struct Blades {
     }
 
   private:
-    void add(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c) {
-        add_triangle(soup, a, b, c);
-    }
+    void add(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c) { add_triangle(soup, a, b, c); }
 };
 
 template <class Scalar>

@@ -25,9 +25,7 @@ TriangleSoup<Scalar> moved(const TriangleSoup<double>& soup, double scale, const
 }
 
 /// In the plane z = 0, its front up: a right angle at the origin, legs of 4 along x and y.
-inline TriangleSoup<double> corner_triangle() {
-    return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}, {}};
-}
+inline TriangleSoup<double> corner_triangle() { return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}, {}}; }
 
 /// One more triangle, with corners of its own.
 template <class Scalar>

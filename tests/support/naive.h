@@ -91,8 +91,13 @@ class NaiveMesh {
                 detail::Measured measured;
                 detail::measure_path<Scalar>(corners_[i], path, measured);
                 const detail::Measures m = detail::fine_measures(narrow(), measured, path, decision, unused);
-                if (!options.accept({faces_[i], i, decision.side, decision.feature, decision.feature_index,
-                                     decision.at_start, m.fraction,
+                if (!options.accept({faces_[i],
+                                     i,
+                                     decision.side,
+                                     decision.feature,
+                                     decision.feature_index,
+                                     decision.at_start,
+                                     m.fraction,
                                      {m.barycentric[0], m.barycentric[1], m.barycentric[2]}}))
                     continue;
             }

@@ -79,8 +79,10 @@ struct TriangleFan {
             if (!basis)
                 throw_mesh_error("fan triangle " + std::to_string(k) +
                                  " has no area, or one that can't be computed with");
-            if (!before) stored.first = fan_first(*basis, a);
-            else stored.turns.push_back(fan_turn(*before, *basis, k == last));
+            if (!before)
+                stored.first = fan_first(*basis, a);
+            else
+                stored.turns.push_back(fan_turn(*before, *basis, k == last));
             before = basis;
         }
         stored.turns.front().a -= 1;

@@ -1,4 +1,5 @@
-// Errors that the library throws are caught by their own type, and what it defines beside `CollisionMesh` can be linked.
+// Errors that the library throws are caught by their own type, and what it defines beside `CollisionMesh` can be
+// linked.
 #include <array>
 #include <cstdio>
 #include <span>
