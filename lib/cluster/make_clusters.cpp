@@ -43,12 +43,24 @@ void write_part(Part<Scalar>& part, const CornerReader<Scalar>& reader, std::uin
 // overflows; but half of the least number is 0. For the largest scenes it is subnormal, which is exact as well: a scene
 // of several units would have larger errors than slab tests allow for.
 template <class Scalar>
-Scalar unit_of(const QuadBox<Scalar>& box) {
+Scalar unit_by_extent(const QuadBox<Scalar>& box) {
     const Scalar half_extent = largest_of<Scalar>(box.high * Scalar(0.5) - box.low * Scalar(0.5));
     if (half_extent >= 1) return std::ldexp(Scalar(1), -2 - std::ilogb(half_extent));
     if (half_extent > 0) return power_to_reach(-2, half_extent);
     const Scalar extent = largest_of<Scalar>(box.high - box.low);
     return extent > 0 ? power_to_reach(-1, extent) : Scalar(1);
+}
+
+// A scene in a plane across an axis may be so small beside its distance from the origin that its coordinates would
+// overflow. There the unit is smaller: with the noise, which is a few units in the last place of the largest coordinate,
+// everything in such a scene is visited all the same.
+template <class Scalar>
+Scalar unit_of(const QuadBox<Scalar>& box) {
+    const Scalar unit = unit_by_extent(box);
+    Scalar largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
+    if (!(largest >= 1)) return unit;
+    return std::min(unit, std::ldexp(Scalar(1), std::numeric_limits<Scalar>::max_exponent - 4 - std::ilogb(largest)));
 }
 
 template <class Scalar>

@@ -91,5 +91,41 @@ TEST(BuildEnds, soon_for_cells_that_are_far_too_small) {
     EXPECT_TRUE(mesh.any_hit({V(0.5 + 1e-5, 1e-5, 1), V(0.5 + 1e-5, 1e-5, -1)}));
 }
 
+// In units of its own size the scene's distance from the origin overflowed, and the lattice's corner was sought for ever.
+template <class Scalar>
+void expect_scenes_far_away_to_be_built(double far, double size) {
+    using P = Vec3<Scalar>;
+    TriangleSoup<Scalar> soup;
+    const auto at = [&](double x, double z) { return P(Vec3<double>(size * x, far, size * z).cast<Scalar>()); };
+    for (int i = 0; i < 100; ++i) {
+        const auto first = static_cast<std::uint32_t>(soup.positions.size());
+        for (const P& p : {at(i, 0), at(i, 1), at(i + 1, 0)}) soup.positions.push_back(p);
+        soup.triangles.push_back({first, first + 1, first + 2});
+    }
+    for (const Broadphase broadphase : {Broadphase::tree, Broadphase::grid}) {
+        const CollisionMesh<Scalar> mesh(soup.view(), {.broadphase = broadphase});
+        for (const int i : {0, 37, 99}) {
+            const P above = at(i + 0.25, 0.25) * Scalar(1);
+            P from = above;
+            P to = above;
+            from[1] = static_cast<Scalar>(far * (far > 0 ? 1.5 : 0.5));
+            to[1] = static_cast<Scalar>(far * (far > 0 ? 0.5 : 1.5));
+            const auto hit = mesh.first_hit({from, to}, {.sides = Sides::both});
+            ASSERT_TRUE(hit) << far << ' ' << size << ' ' << i;
+            EXPECT_EQ(hit->face, static_cast<std::uint32_t>(i));
+            EXPECT_TRUE(mesh.any_hit(Ray<Scalar>{from, P(0, far > 0 ? -1 : 1, 0)}, {.sides = Sides::both}));
+            EXPECT_EQ(mesh.locate(above).place, Place::on_surface);
+        }
+    }
+}
+
+TEST(BuildEnds, for_scenes_that_are_nothing_beside_their_distance_from_the_origin) {
+    expect_scenes_far_away_to_be_built<double>(-3.64e297, 3e-59);
+    expect_scenes_far_away_to_be_built<double>(1e308, 1e-300);
+    expect_scenes_far_away_to_be_built<double>(1e200, 1e-200);
+    expect_scenes_far_away_to_be_built<float>(1e38, 1e-30);
+    expect_scenes_far_away_to_be_built<float>(-1e30, 1e-36);
+}
+
 }  // namespace
 }  // namespace pierce::test
