@@ -27,8 +27,8 @@ std::string_view to_string(Status status) noexcept {
 template <class Scalar>
 Result<TriangleSoup<Scalar>> try_read_mesh(const std::filesystem::path& path) noexcept {
     Result<TriangleSoup<Scalar>> result;
-    result.status = detail::without_exceptions([&] { result.value = read_mesh<Scalar>(path); }, Status::bad_file,
-                                               result.message);
+    result.status =
+        detail::without_exceptions([&] { result.value = read_mesh<Scalar>(path); }, Status::bad_file, result.message);
     return result;
 }
 

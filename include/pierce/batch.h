@@ -39,7 +39,8 @@ class Segments {
 };
 
 /// Hits as one array for each of their members: entry i of each is of query i. Null arrays are not written. Points and
-/// vectors are three numbers in a row. For a miss `hit` is 0, `face` and `triangle` are `no_face`, and all others are 0.
+/// vectors are three numbers in a row. For a miss `hit` is 0, `face` and `triangle` are `no_face`, and all others are
+/// 0.
 template <class Scalar>
 struct HitArrays {
     std::size_t count = 0;  ///< how many entries each array has

@@ -81,8 +81,8 @@ class CollisionMesh {
     std::size_t all_hits(const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
                          const QueryOptions& options = {}) const noexcept;
 
-    /// A point moves in a straight line from `step.from` to `step.to`: when and where does it first run into the mesh? If
-    /// the answer is empty it may be moved to `to`; otherwise to the hit's `point`, and never further. The hit's
+    /// A point moves in a straight line from `step.from` to `step.to`: when and where does it first run into the mesh?
+    /// If the answer is empty it may be moved to `to`; otherwise to the hit's `point`, and never further. The hit's
     /// `fraction` is the time of impact: the part of the step after which the point is still certainly outside.
     [[nodiscard]] std::optional<Hit<Scalar>> sweep(const Segment<Scalar>& step,
                                                    const QueryOptions& options = {}) const noexcept {

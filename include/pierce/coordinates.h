@@ -8,8 +8,8 @@
 namespace pierce {
 
 /// A point or vector as an array of three numbers, trivially copyable and without padding. It becomes a `Vec3` where
-/// one is wanted, and `+ - * /`, `==`, `dot`, `cross` and `norm` work on it as on one; `vec()` has all the rest of Eigen
-/// (`v.dot(hit.normal)` is `hit.normal.dot(v)`, or `v.dot(hit.normal.vec())`).
+/// one is wanted, and `+ - * /`, `==`, `dot`, `cross` and `norm` work on it as on one; `vec()` has all the rest of
+/// Eigen (`v.dot(hit.normal)` is `hit.normal.dot(v)`, or `v.dot(hit.normal.vec())`).
 template <class Scalar>
 struct Coordinates {
     using Vec = Vec3<Scalar>;

@@ -31,8 +31,8 @@ class Task {
 /// depend on it, not in one bit. `pierce/tbb.h` has one for oneTBB.
 ///
 /// It keeps what it is made of: a function pointer, or a lambda or other object of up to four pointers that is copied
-/// byte by byte and does not change when it is called. What is larger, owns memory or changes is refused by the compiler
-/// unless it is wrapped in `std::ref`; then it has to live as long as the executor is used.
+/// byte by byte and does not change when it is called. What is larger, owns memory or changes is refused by the
+/// compiler unless it is wrapped in `std::ref`; then it has to live as long as the executor is used.
 class Executor {
     using Kept = detail::SmallCallable<void(std::size_t, Task)>;
 

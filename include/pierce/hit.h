@@ -44,8 +44,8 @@ struct Hit {
     Coordinates<Scalar> normal;
     /// Weights of the corners a, b, c in the true point of intersection, in [0, 1], each within 1 ulp of 1.
     Coordinates<Scalar> barycentric;
-    /// Where the segment meets the face, in [0, 1], within 1 ulp; not verified. In one call of `all_hits` those at exactly
-    /// the same fraction have the same bits here, and it never decreases from one hit to the next.
+    /// Where the segment meets the face, in [0, 1], within 1 ulp; not verified. In one call of `all_hits` those at
+    /// exactly the same fraction have the same bits here, and it never decreases from one hit to the next.
     Scalar exact_fraction;
     /// The caller's number of the face (`MeshView::faces`).
     std::uint32_t face;

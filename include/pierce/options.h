@@ -68,9 +68,9 @@ struct Contact {
 /// Something that is called with a `Contact` and says whether it counts: a lambda, say, that looks up a texture.
 ///
 /// It keeps what it is made of: a function pointer, or a lambda or other object of up to four pointers that is copied
-/// byte by byte and does not change when it is called. What is larger, owns memory or changes is refused by the compiler
-/// unless it is wrapped in `std::ref`; then it has to live as long as the options are used, as does what a lambda
-/// captures by reference.
+/// byte by byte and does not change when it is called. What is larger, owns memory or changes is refused by the
+/// compiler unless it is wrapped in `std::ref`; then it has to live as long as the options are used, as does what a
+/// lambda captures by reference.
 ///
 /// It may be asked about the same face more than once, also for the shortened segment to the point that is being
 /// verified, so its answer must depend on the contact only. It must not throw.
@@ -96,10 +96,9 @@ class Accept {
 /// For a single query or a batch of them. A hit that an option leaves out hides nothing behind it: the answer is as if
 /// it were not there.
 struct QueryOptions {
-    /// The side that a segment must come from to hit a triangle. The front by default: a closed mesh is left and entered
-    /// then by one rule that has no exceptions, and the physics engines that take one-sided meshes (PhysX, Jolt, Unity)
-    /// have the same default; Embree, Bullet and Godot count both. A mesh whose triangles are clockwise seen from outside
-    /// needs `back`, and one that is open, or of mixed orientation, `both`.
+    /// The side that a segment must come from to hit a triangle. The front by default, as in the one-sided tests that
+    /// the library stands on, and in PhysX, Jolt and Unity; Embree, Bullet and Godot count both. A mesh whose triangles
+    /// are clockwise seen from outside needs `back`; one that is open, or of mixed orientation, `both`.
     Sides sides = Sides::front;
     /// Only hits whose exact fraction is at most this count. NaN: no hit.
     double max_fraction = std::numeric_limits<double>::infinity();

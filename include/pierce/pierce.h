@@ -5,10 +5,9 @@
 //   if (auto hit = level.first_hit({from, to}))                 // from, to: Eigen::Vector3d
 //       particle = hit->point;                                  // safe to stand on, safe to step from
 //
-// Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, batch.h, collision_mesh.h; result.h for
-// programs without exceptions.
-// <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single
-// triangles.
+// Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, batch.h, collision_mesh.h; result.h
+// for programs without exceptions. <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB,
+// <pierce/kernels.h> tests for single triangles.
 #pragma once
 
 #include <pierce/batch.h>

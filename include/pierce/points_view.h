@@ -25,8 +25,8 @@ concept HasColumns = std::same_as<typename Matrix::Scalar, Scalar> && (Matrix::F
 
 /// `size()` points; a point is three numbers in a row, and from one point to the next is a fixed number of bytes, which
 /// may be any, negative as well: a `std::vector<Vec3<Scalar>>`, the columns of an Eigen matrix with three rows (or of a
-/// block or map of one), the vertex buffer of a game, an array of NumPy. A view in double takes floats too; one in float
-/// refuses doubles, which it would have to round. Not owned, nothing is copied.
+/// block or map of one), the vertex buffer of a game, an array of NumPy. A view in double takes floats too; one in
+/// float refuses doubles, which it would have to round. Not owned, nothing is copied.
 template <class Scalar>
 class PointsView {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");

@@ -58,8 +58,8 @@ template <class Scalar>
 Result<CollisionMesh<Scalar>> CollisionMesh<Scalar>::try_make(const MeshView<Scalar>& mesh,
                                                               const BuildOptions& options) noexcept {
     Result<CollisionMesh> result;
-    result.status = without_exceptions([&] { result.value = CollisionMesh(mesh, options); }, Status::bad_mesh,
-                                       result.message);
+    result.status =
+        without_exceptions([&] { result.value = CollisionMesh(mesh, options); }, Status::bad_mesh, result.message);
     return result;
 }
 

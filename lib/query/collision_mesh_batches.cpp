@@ -132,17 +132,17 @@ std::size_t CollisionMesh<Scalar>::any_hits(const Segments<Scalar>& segments, st
                     });
 }
 
-template std::size_t CollisionMesh<float>::first_hits(const Segments<float>&, const HitsOut<float>&, const QueryOptions&,
-                                                  const Executor&) const;
+template std::size_t CollisionMesh<float>::first_hits(const Segments<float>&, const HitsOut<float>&,
+                                                      const QueryOptions&, const Executor&) const;
 template std::size_t CollisionMesh<float>::sweeps(const Segments<float>&, const HitsOut<float>&, const QueryOptions&,
-                                              const Executor&) const;
-template std::size_t CollisionMesh<float>::any_hits(const Segments<float>&, std::span<std::uint8_t>, const QueryOptions&,
-                                                const Executor&) const;
-template std::size_t CollisionMesh<double>::first_hits(const Segments<double>&, const HitsOut<double>&, const QueryOptions&,
                                                   const Executor&) const;
+template std::size_t CollisionMesh<float>::any_hits(const Segments<float>&, std::span<std::uint8_t>,
+                                                    const QueryOptions&, const Executor&) const;
+template std::size_t CollisionMesh<double>::first_hits(const Segments<double>&, const HitsOut<double>&,
+                                                       const QueryOptions&, const Executor&) const;
 template std::size_t CollisionMesh<double>::sweeps(const Segments<double>&, const HitsOut<double>&, const QueryOptions&,
-                                              const Executor&) const;
-template std::size_t CollisionMesh<double>::any_hits(const Segments<double>&, std::span<std::uint8_t>, const QueryOptions&,
-                                                const Executor&) const;
+                                                   const Executor&) const;
+template std::size_t CollisionMesh<double>::any_hits(const Segments<double>&, std::span<std::uint8_t>,
+                                                     const QueryOptions&, const Executor&) const;
 
 }  // namespace pierce

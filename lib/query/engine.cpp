@@ -58,8 +58,8 @@ std::size_t all_hits(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
         measure_path<Scalar>(scene.corners(candidate.triangle), path, candidate.measured);
         answer<Certified>(scene, path, candidate, passed, options, counters, nullptr, out[i]);
         // Fractions that were rounded each by itself, within 1 ulp, may differ where the exact ones are equal, and go
-        // back where they are not. So of equal ones the first one's value stands for all, and of others the larger of
-        // a hit's own and the value before. Both are within 1 ulp of the true fraction f: a value from before belongs to
+        // back where they are not. So of equal ones the first one's value stands for all, and of others the larger of a
+        // hit's own and the value before. Both are within 1 ulp of the true fraction f: a value from before belongs to
         // a true fraction g <= f, and is at most 1 ulp above g, so of f; and it is taken only where g = f, or where it
         // is larger than a value which is at most 1 ulp below f.
         if (i > 0) {

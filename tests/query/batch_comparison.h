@@ -45,7 +45,8 @@ struct Places {
         features.assign(count, Feature::vertex);
         arrays.count = count;
         Scalar* number = numbers.data();
-        for (Scalar** array : {&arrays.fraction, &arrays.exact_fraction}) *array = std::exchange(number, number + count);
+        for (Scalar** array : {&arrays.fraction, &arrays.exact_fraction})
+            *array = std::exchange(number, number + count);
         for (Scalar** array : {&arrays.point, &arrays.position, &arrays.normal, &arrays.barycentric})
             *array = std::exchange(number, number + 3 * count);
         arrays.face = words.data();
@@ -122,8 +123,8 @@ class Comparison {
         const HitArrays<Scalar> two{.count = segments.size(), .point = some.arrays.point, .face = some.arrays.face};
         counted(how, [&] { return mesh_.first_hits(segments, two, options_, executor_); });
         EXPECT_EQ(some.words.size(), 2 * segments.size());
-        EXPECT_TRUE(std::equal(some.words.begin(), some.words.begin() + std::ptrdiff_t(segments.size()),
-                               places.words.begin()));
+        EXPECT_TRUE(
+            std::equal(some.words.begin(), some.words.begin() + std::ptrdiff_t(segments.size()), places.words.begin()));
         EXPECT_EQ(std::count(some.bytes.begin(), some.bytes.end(), 77), std::ptrdiff_t(some.bytes.size()));
         EXPECT_EQ(std::count(some.words.begin() + std::ptrdiff_t(segments.size()), some.words.end(), 77U),
                   std::ptrdiff_t(segments.size()));

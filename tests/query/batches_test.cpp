@@ -81,8 +81,8 @@ TYPED_TEST(Batches, hold_for_every_executor_and_chunking) {
     std::size_t hits = 0;
     for (std::size_t first = 0; first < segments.size();) {
         const std::size_t some = std::min(segments.size() - first, random.below(random.chance(0.1) ? 2000 : 40));
-        hits += this->mesh_.first_hits(std::span(segments).subspan(first, some), std::span(out).subspan(first, some), {},
-                                       Threads());
+        hits += this->mesh_.first_hits(std::span(segments).subspan(first, some), std::span(out).subspan(first, some),
+                                       {}, Threads());
         first += some;
     }
     EXPECT_EQ(hits, expected.count);

@@ -1,5 +1,5 @@
-// Meshes from buffers as they lie in memory give the bits of meshes from vectors. Only spans of Vec3 and IndexTriple were
-// taken once: whoever had a vertex buffer had to copy it first.
+// Meshes from buffers as they lie in memory give the bits of meshes from vectors. Only spans of Vec3 and IndexTriple
+// were taken once: whoever had a vertex buffer had to copy it first.
 #include <cstring>
 
 #include <gtest/gtest.h>

@@ -84,8 +84,8 @@ struct CountedCalls {
 TEST(BuildEnds, soon_for_cells_that_are_far_too_small) {
     const TriangleSoup<double> soup = row(20'000, 1.0 / 20'000);
     const CountedCalls counted;
-    const CollisionMesh<double> mesh(soup.view(),
-                                     {.broadphase = Broadphase::grid, .cell_size = 1e-300, .executor = std::ref(counted)});
+    const BuildOptions options{.broadphase = Broadphase::grid, .cell_size = 1e-300, .executor = std::ref(counted)};
+    const CollisionMesh<double> mesh(soup.view(), options);
     EXPECT_GT(counted.calls, 3);
     EXPECT_LT(counted.calls, 100);
     EXPECT_TRUE(mesh.any_hit({V(0.5 + 1e-5, 1e-5, 1), V(0.5 + 1e-5, 1e-5, -1)}));

@@ -1,5 +1,5 @@
-// What Accept and Executor keep. They were references once: `options.accept = [&](...) {...};`, the way everyone fills an
-// options struct, left one to a lambda that was gone, and the next query crashed.
+// What Accept and Executor keep. They were references once: `options.accept = [&](...) {...};`, the way everyone fills
+// an options struct, left one to a lambda that was gone, and the next query crashed.
 #include <array>
 #include <cstring>
 #include <functional>

@@ -1,6 +1,6 @@
 // Hits of one all_hits call that are at exactly the same fraction have the same bits in `exact_fraction`, and it never
-// goes back from one hit to the next. Each was computed by itself once, within 1 ulp: of faces that meet in a vertex one
-// had another last bit, and whoever grouped hits by it saw two walls.
+// goes back from one hit to the next. Each was computed by itself once, within 1 ulp: of faces that meet in a vertex
+// one had another last bit, and whoever grouped hits by it saw two walls.
 #include <cmath>
 
 #include <gtest/gtest.h>

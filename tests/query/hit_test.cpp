@@ -4,10 +4,10 @@
 #include <sstream>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <pierce/collision_mesh.h>
 #include <support/meshes.h>
+#include <Eigen/Geometry>
 
 namespace pierce::test {
 namespace {
