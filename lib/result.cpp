@@ -25,14 +25,14 @@ std::string_view to_string(Status status) noexcept {
 }
 
 template <class Scalar>
-Result<TriangleSoup<Scalar>> try_read_mesh(const std::filesystem::path& path) noexcept {
+Result<TriangleSoup<Scalar>> try_read_mesh(const std::filesystem::path& path, const ReadOptions& options) noexcept {
     Result<TriangleSoup<Scalar>> result;
-    result.status =
-        detail::without_exceptions([&] { result.value = read_mesh<Scalar>(path); }, Status::bad_file, result.message);
+    result.status = detail::without_exceptions([&] { result.value = read_mesh<Scalar>(path, options); },
+                                               Status::bad_file, result.message);
     return result;
 }
 
-template Result<TriangleSoup<float>> try_read_mesh<float>(const std::filesystem::path&) noexcept;
-template Result<TriangleSoup<double>> try_read_mesh<double>(const std::filesystem::path&) noexcept;
+template Result<TriangleSoup<float>> try_read_mesh<float>(const std::filesystem::path&, const ReadOptions&) noexcept;
+template Result<TriangleSoup<double>> try_read_mesh<double>(const std::filesystem::path&, const ReadOptions&) noexcept;
 
 }  // namespace pierce

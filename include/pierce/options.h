@@ -95,10 +95,9 @@ class Accept {
 /// For a single query or a batch of them. A hit that an option leaves out hides nothing behind it: the answer is as if
 /// it were not there.
 struct QueryOptions {
-    /// The side that a segment must come from to hit a triangle. The front by default: a closed mesh is left and
-    /// entered then by one rule that has no exceptions, and the physics engines that take one-sided meshes (PhysX,
-    /// Jolt, Unity) have the same default; Embree, Bullet and Godot count both. A mesh whose triangles are clockwise
-    /// seen from outside needs `back`, and one that is open, or of mixed orientation, `both`.
+    /// The side that a segment must come from to hit a triangle. The front by default, as in the one-sided tests that
+    /// the library stands on, and in PhysX, Jolt and Unity; Embree, Bullet and Godot count both. A mesh whose triangles
+    /// are clockwise seen from outside needs `back`; one that is open, or of mixed orientation, `both`.
     Sides sides = Sides::front;
     /// Only hits whose exact fraction, or t of a ray, is at most this count. NaN: no hit.
     double max_fraction = std::numeric_limits<double>::infinity();

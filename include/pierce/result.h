@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include <pierce/export.h>
+
 namespace pierce {
 
 /// Why something could not be done. The numbers stay what they are.
@@ -19,7 +21,7 @@ enum class Status : std::uint8_t {
 };
 
 /// A few words for people.
-[[nodiscard]] std::string_view to_string(Status status) noexcept;
+[[nodiscard]] PIERCE_EXPORT std::string_view to_string(Status status) noexcept;
 
 /// What was asked for, or why there is none: `value` is empty then, and `message` what the exception would have said.
 template <class Value>
