@@ -20,6 +20,9 @@
 
 namespace pierce {
 
+template <class Scalar>
+class Regions;
+
 /// What was built, and what was odd about it. Bytes are those the library holds, all of them counted.
 struct MeshStatistics {
     std::size_t vertices = 0;
@@ -157,6 +160,8 @@ class CollisionMesh {
     std::size_t all_hits_of_ray(const Ray<Scalar>& ray, std::span<Hit<Scalar>> out,
                                 const QueryOptions& options) const noexcept;
     int crossings_of_ray(const Ray<Scalar>& ray, QueryCounters* counters) const noexcept;
+
+    friend class Regions<Scalar>;
 
     struct Impl;
     std::unique_ptr<Impl> impl_;

@@ -5,7 +5,8 @@
 //   if (auto hit = level.first_hit({from, to}))                 // from, to: Eigen::Vector3d
 //       particle = hit->point;                                  // safe to stand on, safe to step from
 //
-// Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, collision_mesh.h.
+// Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, collision_mesh.h;
+// then ray.h, and regions.h for particle transport.
 // <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single
 // triangles.
 #pragma once
@@ -15,5 +16,6 @@
 #include <pierce/mesh_view.h>
 #include <pierce/options.h>
 #include <pierce/ray.h>
+#include <pierce/regions.h>
 #include <pierce/triangle_soup.h>
 #include <pierce/types.h>

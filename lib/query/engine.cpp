@@ -10,21 +10,6 @@
 
 namespace pierce::detail {
 
-namespace {
-
-template <class Scalar>
-bool set_path(const Scene<Scalar>&, const Segment<Scalar>& segment, double most, Path& path) {
-    path = to_path(segment, most);
-    return true;
-}
-template <class Scalar>
-bool set_path(const Scene<Scalar>& scene, const Ray<Scalar>& ray, double most, Path& path) {
-    return set_ray_path(scene.bounds, to_point(ray.origin), to_point(ray.direction), static_cast<double>(ray.limit),
-                        most, sizeof(Scalar) == sizeof(float), path);
-}
-
-}  // namespace
-
 template <class Scalar, class Way>
 std::optional<Hit<Scalar>> first_hit(const Scene<Scalar>& scene, const Way& way, const QueryOptions& options,
                                      QueryCounters& counters) {
