@@ -1,6 +1,8 @@
 // Crossings of one path: how they are found, which comes first, and those in one place.
 #pragma once
 
+#include <bit>
+
 #include <exact/crossing.h>
 #include <exact/crossing_order.h>
 #include <exact/fraction.h>
@@ -40,6 +42,19 @@ template <class Scalar>
         found.latest = fraction + slack;
     }
     return found.earliest <= limit;
+}
+
+/// Calls `use(crossing)` for each crossing of the path up to what `limit()` then says.
+template <class Scalar, class Limit, class Use>
+void each_crossing(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters, Limit&& limit, Use&& use) {
+    each_candidate(scene, path, Sides::both, limit(), counters, [&](ClusterRef cluster, unsigned lanes) {
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const TriangleRef triangle{cluster, static_cast<std::uint32_t>(std::countr_zero(lanes))};
+            Crossing crossing{};
+            if (find_crossing(scene, path, triangle, limit(), counters, crossing)) use(crossing);
+        }
+        return limit();
+    });
 }
 
 /// < 0 where x comes first; 0 where both lie in one plane.

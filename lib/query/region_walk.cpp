@@ -88,19 +88,6 @@ class FirstCrossings {
     bool cut_ = false;
 };
 
-/// Calls `use(crossing)` for each crossing of the path up to what `limit()` then says.
-template <class Scalar, class Limit, class Use>
-void each_crossing(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters, Limit&& limit, Use&& use) {
-    each_candidate(scene, path, Sides::both, limit(), counters, [&](ClusterRef cluster, unsigned lanes) {
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const TriangleRef triangle{cluster, static_cast<std::uint32_t>(std::countr_zero(lanes))};
-            Crossing crossing{};
-            if (find_crossing(scene, path, triangle, limit(), counters, crossing)) use(crossing);
-        }
-        return limit();
-    });
-}
-
 /// Puts crossings of coincident faces, from `first` to `last` of the legs, in the order in which their regions follow.
 /// `cut`: there are others in this place.
 template <class Scalar>

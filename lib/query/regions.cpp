@@ -5,6 +5,7 @@
 
 #include <environment.h>
 #include <query/collision_mesh_impl.h>
+#include <query/label_check.h>
 #include <query/region_walk.h>
 
 namespace pierce {
@@ -60,6 +61,12 @@ std::size_t Regions<Scalar>::walk(const Ray<Scalar>& flight, std::span<Leg<Scala
     QueryCounters counters;
     if (!impl_->mesh.valid(flight)) return 0;
     return detail::walk(impl_->scene, flight, out, counters);
+}
+
+template <class Scalar>
+LabelReport Regions<Scalar>::check() const {
+    const StandardArithmetic standard;
+    return check_labels(impl_->scene);
 }
 
 template <class Scalar>
