@@ -43,7 +43,8 @@ template <class Scalar>
 struct Place {
     Vec3<Scalar> point;
     std::uint32_t region;
-    /// Whether that is the region asked for. If not, that is too thin here for any number that was tried.
+    /// Whether that is the region asked for, with nothing else on the way. If not, it is too thin here for any number
+    /// that was tried.
     bool reached;
 };
 

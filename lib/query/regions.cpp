@@ -6,6 +6,7 @@
 #include <environment.h>
 #include <query/collision_mesh_impl.h>
 #include <query/label_check.h>
+#include <query/region_place.h>
 #include <query/region_walk.h>
 
 namespace pierce {
@@ -61,6 +62,38 @@ std::size_t Regions<Scalar>::walk(const Ray<Scalar>& flight, std::span<Leg<Scala
     QueryCounters counters;
     if (!impl_->mesh.valid(flight)) return 0;
     return detail::walk(impl_->scene, flight, out, counters);
+}
+
+template <class Scalar>
+Place<Scalar> Regions<Scalar>::stop(const Segment<Scalar>& flight, const Leg<Scalar>& first) const noexcept {
+    const StandardArithmetic standard;
+    QueryCounters counters;
+    if (!impl_->mesh.finite(flight.from, flight.to)) return {flight.from, first.region, false};
+    return detail::stop(impl_->scene, flight, first, counters);
+}
+
+template <class Scalar>
+Place<Scalar> Regions<Scalar>::stop(const Ray<Scalar>& flight, const Leg<Scalar>& first) const noexcept {
+    const StandardArithmetic standard;
+    QueryCounters counters;
+    if (!impl_->mesh.valid(flight)) return {flight.origin, first.region, false};
+    return detail::stop(impl_->scene, flight, first, counters);
+}
+
+template <class Scalar>
+Place<Scalar> Regions<Scalar>::cross(const Segment<Scalar>& flight, const Leg<Scalar>& first) const noexcept {
+    const StandardArithmetic standard;
+    QueryCounters counters;
+    if (!impl_->mesh.finite(flight.from, flight.to)) return {flight.from, first.region, false};
+    return detail::cross(impl_->scene, flight, first, counters);
+}
+
+template <class Scalar>
+Place<Scalar> Regions<Scalar>::cross(const Ray<Scalar>& flight, const Leg<Scalar>& first) const noexcept {
+    const StandardArithmetic standard;
+    QueryCounters counters;
+    if (!impl_->mesh.valid(flight)) return {flight.origin, first.region, false};
+    return detail::cross(impl_->scene, flight, first, counters);
 }
 
 template <class Scalar>
