@@ -87,27 +87,25 @@ TYPED_TEST(RegionFlights, have_places_on_both_sides_of_faces_edges_and_vertices)
         for (const double offset : {0.0, 1000.0}) look_at_places<TypeParam>(scale, offset);
 }
 
-// A slab between two faces that are one unit in the last place of 1 apart: no number in it is a grain off either. The
-// particle is put where there is room, and its region is that of the place.
+// A wedge between two faces that rise from 1 to the next number, over nearly the same length: where the flight goes
+// through, no number lies between them. The particle is put behind both, and its region is that of the place.
 TYPED_TEST(RegionFlights, say_where_a_particle_is_if_the_next_region_is_too_thin) {
     using Scalar = TypeParam;
     using V = Vec3<Scalar>;
-    const Scalar z = 1;
-    const Scalar next = std::nextafter(z, Scalar(2));
+    const auto next = static_cast<double>(std::nextafter(Scalar(1), Scalar(2)));
     RegionModel<Scalar> model;
-    std::uint32_t region = 1;
-    for (const Scalar height : {Scalar(0), z, next, Scalar(2)}) {
-        for (const bool other : {false, true}) {
-            const auto h = static_cast<double>(height);
-            add_triangle(model.soup, Vec3<double>(-9, -9, h), Vec3<double>(9, other ? 9 : -9, h),
-                         Vec3<double>(other ? -9 : 9, 9, h));
-            model.labels.push_back({region, region - 1});
-        }
-        ++region;
+    for (const double end : {9.0, 8.0}) {
+        add_triangle(model.soup, Vec3<double>(-9, -9, 1), Vec3<double>(end, -9, next), Vec3<double>(-9, 9, 1));
+        const auto region = static_cast<std::uint32_t>(model.labels.size() + 1);
+        model.labels.push_back({region + 1, region});
     }
+    // Above it, region 3 and its end.
+    const auto box = moved<Scalar>(polycube(1, 1, 1, 1), 8, Vec3<double>(-4, -9, 1.5));
+    append(model.soup, box);
+    model.labels.resize(model.soup.triangles.size(), {3, 4});
     const CollisionMesh<Scalar> mesh(model.soup.view());
     const Regions<Scalar> regions(mesh, model.labels);
-    const Ray<Scalar> flight{V(0.25, 0.5, 0.5), V(0, 0, 1)};
+    const Ray<Scalar> flight{V(0.25, -5, 0.5), V(0, 0, 1)};
     std::array<Leg<Scalar>, 1> leg;
     ASSERT_EQ(regions.walk(flight, leg), 1U);
     EXPECT_EQ(leg[0].region, 1U);
@@ -116,7 +114,7 @@ TYPED_TEST(RegionFlights, say_where_a_particle_is_if_the_next_region_is_too_thin
     EXPECT_FALSE(place.reached);
     EXPECT_EQ(place.region, 3U);
     EXPECT_EQ(regions.region_at(place.point), 3U);
-    EXPECT_GT(place.point[2], next);
+    EXPECT_GE(static_cast<double>(place.point[2]), next);
     EXPECT_LT(place.point[2], Scalar(1.001));
 }
 
