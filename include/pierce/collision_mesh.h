@@ -27,6 +27,9 @@
 
 namespace pierce {
 
+template <class Scalar>
+class Regions;
+
 /// What was built, and what was odd about it. Bytes are those the library holds, all of them counted.
 struct MeshStatistics {
     std::size_t vertices = 0;
@@ -235,6 +238,8 @@ class PIERCE_EXPORT CollisionMesh {
                            const Executor& executor) const;
     std::size_t all_hits_of_rays(const Rays<Scalar>& rays, std::span<std::size_t> offsets, std::span<Hit<Scalar>> hits,
                                  const QueryOptions& options, const Executor& executor) const;
+
+    friend class Regions<Scalar>;
 
     struct Impl;
     struct Release {

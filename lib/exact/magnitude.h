@@ -25,8 +25,8 @@ namespace pierce::detail {
     return sum;
 }
 
-template <int N>
-[[nodiscard]] int compare_products(const Integer<N>& a, const Integer<N>& b, const Integer<N>& c, const Integer<N>& d) {
+template <int N, int M>
+[[nodiscard]] int compare_products(const Integer<N>& a, const Integer<M>& b, const Integer<N>& c, const Integer<M>& d) {
     return compare(a * b, c * d);
 }
 

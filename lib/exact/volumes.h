@@ -38,6 +38,8 @@ class Volumes {
         return dot(way_, cross(before, after));
     }
 
+    /// Component k of the normal.
+    [[nodiscard]] const Integer<2 * N>& normal(std::size_t k) const { return normal_[k]; }
     /// The sign of n . (e, e^2, e^3) for e -> 0+.
     [[nodiscard]] int normal_shift() const { return first_sign(normal_); }
     /// The same for way x (the edge opposite to corner k, from the corner before it to the one after it).
@@ -86,10 +88,12 @@ class WideVolumes {
         return sum;
     }
 
+    [[nodiscard]] Accumulator normal(std::size_t k) const {
+        return wide_normal(corner_[0], corner_[1], corner_[2], k, lattice_);
+    }
     [[nodiscard]] int normal_shift() const {
         for (std::size_t k = 0; k < 3; ++k)
-            if (const int sign = wide_normal(corner_[0], corner_[1], corner_[2], k, lattice_).sign(); sign != 0)
-                return sign;
+            if (const int sign = normal(k).sign(); sign != 0) return sign;
         return 0;
     }
     [[nodiscard]] int edge_shift(int corner) const {

@@ -1,0 +1,49 @@
+// Labels of faces, and where they disagree.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <pierce/export.h>
+
+namespace pierce {
+
+/// The regions on the two sides of a face: numbers of the caller's choice.
+struct FaceRegions {
+    std::uint32_t front = 0;
+    std::uint32_t behind = 0;
+
+    friend bool operator==(const FaceRegions&, const FaceRegions&) = default;
+};
+
+/// Where labels disagree: two faces next to one another around an edge, with different regions between them. The two
+/// are one face where an edge has no other: then it has different regions on its sides, which meet around that edge.
+///
+/// Edges are those of equal coordinates, as in `MeshReport`; triangles of area zero are left out. Faces that coincide
+/// agree if there is an order of them that does.
+struct LabelReport {
+    static constexpr std::size_t k_examples = 8;
+
+    struct Disagreement {
+        std::array<std::uint32_t, 2> edge;     ///< numbers of positions
+        std::array<std::uint32_t, 2> faces;    ///< the caller's, the first one's side towards the second
+        std::array<std::uint32_t, 2> regions;  ///< what they say is between them
+    };
+
+    std::size_t edges = 0;     ///< at which faces disagree
+    std::size_t floating = 0;  ///< parts that share no edge with others and lie in another region than they say
+    std::vector<Disagreement> edge_list;        ///< the first ones
+    std::vector<Disagreement> floating_list;    ///< the first ones: `edge` is a vertex of the part, twice
+
+    /// Every point of space has one region, whatever face it is seen from: no flight comes to a leg that is not
+    /// consistent.
+    [[nodiscard]] bool agree() const { return edges == 0 && floating == 0; }
+
+    /// A few lines for people.
+    [[nodiscard]] PIERCE_EXPORT std::string to_string() const;
+};
+
+}  // namespace pierce
