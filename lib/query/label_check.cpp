@@ -14,7 +14,7 @@
 #include <exact/around_edge.h>
 #include <exact/decide.h>
 #include <query/merge_equal.h>
-#include <query/ray_path.h>
+#include <query/ways.h>
 #include <query/region_order.h>
 #include <query/region_walk.h>
 

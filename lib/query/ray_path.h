@@ -15,26 +15,4 @@ namespace pierce::detail {
 [[nodiscard]] bool set_ray_path(const Box& bounds, const Point& origin, const Point& direction, double limit,
                                 double most, bool floats, Path& path);
 
-/// The path of a query. False: there are no hits.
-template <class Scalar>
-[[nodiscard]] bool set_path(const Scene<Scalar>&, const Segment<Scalar>& segment, double most, Path& path) {
-    path = to_path(segment, most);
-    return true;
-}
-template <class Scalar>
-[[nodiscard]] bool set_path(const Scene<Scalar>& scene, const Ray<Scalar>& ray, double most, Path& path) {
-    return set_ray_path(scene.bounds, to_point(ray.origin), to_point(ray.direction), static_cast<double>(ray.limit),
-                        most, sizeof(Scalar) == sizeof(float), path);
-}
-
-/// Where a query starts.
-template <class Scalar>
-[[nodiscard]] Point start_of(const Segment<Scalar>& segment) {
-    return to_point(segment.from);
-}
-template <class Scalar>
-[[nodiscard]] Point start_of(const Ray<Scalar>& ray) {
-    return to_point(ray.origin);
-}
-
 }  // namespace pierce::detail

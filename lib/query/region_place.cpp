@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include <query/grain.h>
-#include <query/ray_path.h>
+#include <query/ways.h>
 #include <query/values.h>
 
 namespace pierce::detail {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include <query/parameter.h>
-#include <query/ray_path.h>
+#include <query/ways.h>
 #include <query/region_order.h>
 #include <query/values.h>
 

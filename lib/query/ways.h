@@ -22,6 +22,16 @@ template <class Scalar>
                         most, sizeof(Scalar) == sizeof(float), path);
 }
 
+/// Where a query starts.
+template <class Scalar>
+[[nodiscard]] Point start_of(const Segment<Scalar>& segment) {
+    return to_point(segment.from);
+}
+template <class Scalar>
+[[nodiscard]] Point start_of(const Ray<Scalar>& ray) {
+    return to_point(ray.origin);
+}
+
 template <class Scalar>
 [[nodiscard]] bool is_finite(const Vec3<Scalar>& x) {
     return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
