@@ -275,12 +275,11 @@ std::size_t walk(const RegionScene<Scalar>& regions, const Way& way, std::span<L
     return count;
 }
 
-#define PIERCE_LEGS(Scalar)                                                                                        \
-    template std::size_t find_legs(const RegionScene<Scalar>&, const Path&, std::span<Leg<Scalar>>,                \
-                                   QueryCounters&);                                                                \
-    template std::uint32_t region_at(const RegionScene<Scalar>&, const Point&, QueryCounters&);                    \
-    template std::size_t walk(const RegionScene<Scalar>&, const Segment<Scalar>&, std::span<Leg<Scalar>>,          \
-                              QueryCounters&);                                                                     \
+#define PIERCE_LEGS(Scalar)                                                                                          \
+    template std::size_t find_legs(const RegionScene<Scalar>&, const Path&, std::span<Leg<Scalar>>, QueryCounters&); \
+    template std::uint32_t region_at(const RegionScene<Scalar>&, const Point&, QueryCounters&);                      \
+    template std::size_t walk(const RegionScene<Scalar>&, const Segment<Scalar>&, std::span<Leg<Scalar>>,            \
+                              QueryCounters&);                                                                       \
     template std::size_t walk(const RegionScene<Scalar>&, const Ray<Scalar>&, std::span<Leg<Scalar>>, QueryCounters&)
 PIERCE_LEGS(float);
 PIERCE_LEGS(double);
