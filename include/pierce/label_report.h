@@ -35,8 +35,8 @@ struct LabelReport {
 
     std::size_t edges = 0;     ///< at which faces disagree
     std::size_t floating = 0;  ///< parts that share no edge with others and lie in another region than they say
-    std::vector<Disagreement> edge_list;        ///< the first ones
-    std::vector<Disagreement> floating_list;    ///< the first ones: `edge` is a vertex of the part, twice
+    std::vector<Disagreement> edge_list;      ///< the first ones
+    std::vector<Disagreement> floating_list;  ///< the first ones: `edge` is a vertex of the part, twice
 
     /// Every point of space has one region, whatever face it is seen from: no flight comes to a leg that is not
     /// consistent.

@@ -30,8 +30,8 @@ struct Leg {
     std::uint32_t face;      ///< the caller's number of the face at `exit`; `no_face` where the flight ends
     std::uint32_t triangle;  ///< as in `Hit`; `no_face` where the flight ends
     Sides side;              ///< that the flight comes to the face from
-    /// Whether the face at `exit` has `region` on this side. If not, the labels are wrong (`Regions::check` says where):
-    /// the flight came to this region by one face, and leaves another by the next.
+    /// Whether the face at `exit` has `region` on this side. If not, the labels are wrong (`Regions::check` says
+    /// where): the flight came to this region by one face, and leaves another by the next.
     bool consistent;
 };
 
@@ -64,8 +64,8 @@ struct RegionPlace {
 ///     point = place.point;
 ///     region = place.region;
 ///
-/// Refers to the mesh, which must live longer; moving the mesh does no harm. Copies the labels. Queries are thread-safe,
-/// allocate nothing and end for every input.
+/// Refers to the mesh, which must live longer; moving the mesh does no harm. Copies the labels. Queries are
+/// thread-safe, allocate nothing and end for every input.
 template <class Scalar>
 class PIERCE_EXPORT Regions {
   public:
@@ -93,23 +93,23 @@ class PIERCE_EXPORT Regions {
     std::size_t walk(const Segment<Scalar>& flight, std::span<Leg<Scalar>> out) const noexcept;
     std::size_t walk(const Ray<Scalar>& flight, std::span<Leg<Scalar>> out) const noexcept;
 
-    /// Where a particle that goes to the end of a flight's **first** leg stops: before the face at its end, or at the end
-    /// of the flight, in the leg's region. The way from the flight's start to the point crosses no face. Before a face
-    /// that is the true point moved off the plane by a grain (`Hit::point`), rounded, or two, four or eight grains;
-    /// where none of these will do, one on the way back to the start; in the end the start.
+    /// Where a particle that goes to the end of a flight's **first** leg stops: before the face at its end, or at the
+    /// end of the flight, in the leg's region. The way from the flight's start to the point crosses no face. Before a
+    /// face that is the true point moved off the plane by a grain (`Hit::point`), rounded, or two, four or eight
+    /// grains; where none of these will do, one on the way back to the start; in the end the start.
     [[nodiscard]] RegionPlace<Scalar> stop(const Segment<Scalar>& flight, const Leg<Scalar>& first) const noexcept;
     [[nodiscard]] RegionPlace<Scalar> stop(const Ray<Scalar>& flight, const Leg<Scalar>& first) const noexcept;
 
-    /// Where a particle that goes through the face at the end of a flight's **first** leg goes on from: beyond the face,
-    /// in the region `next`. The way from the flight's start to the point crosses this one surface only. That is the
-    /// true point moved off the plane by a grain, rounded, or two, four or eight grains; else one further along the
+    /// Where a particle that goes through the face at the end of a flight's **first** leg goes on from: beyond the
+    /// face, in the region `next`. The way from the flight's start to the point crosses this one surface only. That is
+    /// the true point moved off the plane by a grain, rounded, or two, four or eight grains; else one further along the
     /// flight. Where the next region is too thin for these the point lies in another, which `region` names: as a rule
     /// the one that the flight comes to behind it. A leg without a face: as `stop`.
     [[nodiscard]] RegionPlace<Scalar> cross(const Segment<Scalar>& flight, const Leg<Scalar>& first) const noexcept;
     [[nodiscard]] RegionPlace<Scalar> cross(const Ray<Scalar>& flight, const Leg<Scalar>& first) const noexcept;
 
-    /// Whether the labels agree wherever two faces bound one region: `LabelReport`. Looks at the faces around each edge,
-    /// in exact order. Takes memory for them; n log n time for n triangles.
+    /// Whether the labels agree wherever two faces bound one region: `LabelReport`. Looks at the faces around each
+    /// edge, in exact order. Takes memory for them; n log n time for n triangles.
     [[nodiscard]] LabelReport check() const;
 
     [[nodiscard]] std::uint32_t outside() const noexcept;

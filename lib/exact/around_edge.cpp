@@ -1,6 +1,6 @@
-// Turns about an edge: with n = (v - u) x (r - u) the way from the half-plane through r by the right hand is along n, the
-// front of the triangle u, v, r. So the side of x says which half of the turn it is in. On the plane itself the normal
-// of u, v, x is parallel to n, and along it where the half-planes are one.
+// Turns about an edge: with n = (v - u) x (r - u) the way from the half-plane through r by the right hand is along n,
+// the front of the triangle u, v, r. So the side of x says which half of the turn it is in. On the plane itself the
+// normal of u, v, x is parallel to n, and along it where the half-planes are one.
 #include <exact/around_edge.h>
 
 #include <exact/decide.h>

@@ -9,8 +9,9 @@
 // these are equal the difference of the parameters is (g2 - g1) . s = c1 e + c2 e^2 + c3 e^3, whose sign for e -> 0+ is
 // that of the first component that is not 0: the crossing with the larger first component of g comes first.
 //
-// All three equal: g1 = g2 says that the normals are parallel, t1 = t2 that the planes have a point in common. Then they
-// are one plane, and the converse holds as well. So this is a strict weak order, whose ties are the coincident planes.
+// All three equal: g1 = g2 says that the normals are parallel, t1 = t2 that the planes have a point in common. Then
+// they are one plane, and the converse holds as well. So this is a strict weak order, whose ties are the coincident
+// planes.
 //
 // g1 > g2 in component k is n1 (n2 . d) > n2 (n1 . d), turned round where the slopes n . d have different signs: degree
 // 2 times degree 3 in the coordinates. (A slope is below 2^(3b+8) by `with_limbs`, which leaves room for its sign.)

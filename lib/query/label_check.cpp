@@ -1,11 +1,11 @@
 // Whether labels agree: around each edge, and between parts of the surface that share no edge.
 //
-// That makes them agree everywhere. A cell is a part of space between faces. Faces of one part of the surface that bound
-// one cell are joined by edges, around which they are neighbours, so they say the same of it. Other parts in the cell's
-// boundary are joined to it by rays: from the vertex of a part that is furthest along x, moved as in crossing.h, a ray
-// along x does not cross the part itself, as all of it lies behind. Where it crosses another, that one bounds the same
-// cell and reaches further along x; where it crosses none, the cell is the outside. So by induction all parts that bound
-// a cell are joined to one another, and the last to the outside.
+// That makes them agree everywhere. A cell is a part of space between faces. Faces of one part of the surface that
+// bound one cell are joined by edges, around which they are neighbours, so they say the same of it. Other parts in the
+// cell's boundary are joined to it by rays: from the vertex of a part that is furthest along x, moved as in crossing.h,
+// a ray along x does not cross the part itself, as all of it lies behind. Where it crosses another, that one bounds the
+// same cell and reaches further along x; where it crosses none, the cell is the outside. So by induction all parts that
+// bound a cell are joined to one another, and the last to the outside.
 #include <query/label_check.h>
 
 #include <numeric>
@@ -29,8 +29,8 @@ struct Wing {
     std::uint32_t u;
     std::uint32_t v;
     std::uint32_t triangle;
-    std::uint32_t apex;  ///< its third vertex
-    int turn;            ///< from the first wing of the edge: around_edge.h
+    std::uint32_t apex;    ///< its third vertex
+    int turn;              ///< from the first wing of the edge: around_edge.h
     std::uint32_t before;  ///< the region that is come to first by a turn about v - u by the right hand, and then
     std::uint32_t after;
 };
@@ -39,7 +39,9 @@ template <class Scalar>
 class LabelCheck {
   public:
     explicit LabelCheck(const RegionScene<Scalar>& regions)
-        : regions_(regions), scene_(regions.scene), positions_(scene_.vertex_count, no_position()),
+        : regions_(regions),
+          scene_(regions.scene),
+          positions_(scene_.vertex_count, no_position()),
           part_of_(scene_.triangles.size()) {
         std::iota(part_of_.begin(), part_of_.end(), 0U);
     }
@@ -47,8 +49,8 @@ class LabelCheck {
     LabelReport report() {
         collect();
         for (auto first = wings_.begin(); first != wings_.end();) {
-            const auto last = std::find_if(first, wings_.end(),
-                                           [&](const Wing& w) { return w.u != first->u || w.v != first->v; });
+            const auto last =
+                std::find_if(first, wings_.end(), [&](const Wing& w) { return w.u != first->u || w.v != first->v; });
             check_edge({first, last});
             first = last;
         }
@@ -174,7 +176,8 @@ class LabelCheck {
         const Point& from = positions_[vertex];
         Crossing around{};
         Crossing own{};
-        const bool has_around = first_crossing(from, {1, 0, 0}, [](TriangleRef) { return true; }, around);
+        const bool has_around = first_crossing(
+            from, {1, 0, 0}, [](TriangleRef) { return true; }, around);
         const std::uint32_t expected = has_around ? regions_.near(around.triangle, around.sign) : regions_.outside;
         const std::uint32_t id = find(scene_.number_of(part[0]));
         const auto is_own = [&](TriangleRef triangle) { return find(scene_.number_of(triangle)) == id; };
@@ -183,8 +186,8 @@ class LabelCheck {
             const Corners corners = scene_.corners(triangle);
             Point way{};
             for (std::size_t k = 0; k < 3; ++k)
-                way[k] = static_cast<double>(static_cast<Scalar>(
-                    corners[0][k] / 3 + corners[1][k] / 3 + corners[2][k] / 3 - from[k]));
+                way[k] = static_cast<double>(
+                    static_cast<Scalar>(corners[0][k] / 3 + corners[1][k] / 3 + corners[2][k] / 3 - from[k]));
             if (!first_crossing(from, way, is_own, own)) continue;
             const std::uint32_t said = regions_.near(own.triangle, own.sign);
             if (said == expected) return;

@@ -12,8 +12,8 @@
 #include <cmath>
 
 #include <query/grain.h>
-#include <query/ways.h>
 #include <query/values.h>
+#include <query/ways.h>
 
 namespace pierce::detail {
 
@@ -79,8 +79,7 @@ class PlaceBy {
         if (!std::isfinite(point[0] + point[1] + point[2])) return {0, 0, false};
         if (point == path_.from) return {1, leg_.region, true};
         std::array<Leg<Scalar>, k_most_legs> legs;
-        const std::size_t count =
-            find_legs(regions_, Path{path_.from, point}, std::span<Leg<Scalar>>(legs), counters_);
+        const std::size_t count = find_legs(regions_, Path{path_.from, point}, std::span<Leg<Scalar>>(legs), counters_);
         if (count == 1 && legs[0].face == no_face) return {1, leg_.region, true};
         if (legs[count - 1].face != no_face) return {count, region_at(regions_, point, counters_), true};
         const bool consistent = std::all_of(legs.begin(), legs.begin() + static_cast<std::ptrdiff_t>(count),
@@ -95,7 +94,8 @@ class PlaceBy {
             const double by = grains * regions_.scene.grain * near_[k];
             const double wanted = true_point_[k] + by;
             auto rounded = static_cast<Scalar>(wanted);
-            const bool short_of = by > 0 ? static_cast<double>(rounded) < wanted : static_cast<double>(rounded) > wanted;
+            const bool short_of =
+                by > 0 ? static_cast<double>(rounded) < wanted : static_cast<double>(rounded) > wanted;
             constexpr Scalar k_infinite = std::numeric_limits<Scalar>::infinity();
             if (by != 0 && short_of) rounded = std::nextafter(rounded, by > 0 ? k_infinite : -k_infinite);
             point[k] = static_cast<double>(rounded);
@@ -103,8 +103,8 @@ class PlaceBy {
         return point;
     }
 
-    // A place further along the flight: in steps from sixteen grains on, each twice as long as the one before, up to the
-    // middle of the leg.
+    // A place further along the flight: in steps from sixteen grains on, each twice as long as the one before, up to
+    // the middle of the leg.
     bool find_along(RegionPlace<Scalar>& found) {
         std::array<Leg<Scalar>, k_most_legs> legs;
         const std::size_t count = find_legs(regions_, path_, std::span<Leg<Scalar>>(legs), counters_);
@@ -164,16 +164,16 @@ template <class Scalar>
     Point end{};
     for (std::size_t k = 0; k < 3; ++k) {
         const auto i = static_cast<int>(k);
-        end[k] = static_cast<double>(way.origin[i]) +
-                 static_cast<double>(way.limit) * static_cast<double>(way.direction[i]);
+        end[k] =
+            static_cast<double>(way.origin[i]) + static_cast<double>(way.limit) * static_cast<double>(way.direction[i]);
     }
     return rounded_to<Scalar>(end);
 }
 
 /// Of a flight without a face: its end, or where rounding that crosses one, a place on the way back to the start.
 template <class Scalar, class Way>
-[[nodiscard]] RegionPlace<Scalar> stop_at_end(const RegionScene<Scalar>& regions, const Way& way, const Leg<Scalar>& leg,
-                                        QueryCounters& counters) {
+[[nodiscard]] RegionPlace<Scalar> stop_at_end(const RegionScene<Scalar>& regions, const Way& way,
+                                              const Leg<Scalar>& leg, QueryCounters& counters) {
     const Point from = start_of(way);
     const Point end = end_point(way);
     const auto place = [&](const Point& point) {
@@ -200,28 +200,27 @@ template <class Scalar, class Way>
 
 template <class Scalar, class Way>
 RegionPlace<Scalar> stop(const RegionScene<Scalar>& regions, const Way& way, const Leg<Scalar>& leg,
-                   QueryCounters& counters) {
+                         QueryCounters& counters) {
     Path path;
-    if (leg.face == no_face ||
-        !set_path(regions.scene, way, std::numeric_limits<double>::infinity(), path))
+    if (leg.face == no_face || !set_path(regions.scene, way, std::numeric_limits<double>::infinity(), path))
         return stop_at_end(regions, way, leg, counters);
     return PlaceBy<Scalar>(regions, path, leg, counters).before();
 }
 
 template <class Scalar, class Way>
 RegionPlace<Scalar> cross(const RegionScene<Scalar>& regions, const Way& way, const Leg<Scalar>& leg,
-                    QueryCounters& counters) {
+                          QueryCounters& counters) {
     Path path;
-    if (leg.face == no_face ||
-        !set_path(regions.scene, way, std::numeric_limits<double>::infinity(), path))
+    if (leg.face == no_face || !set_path(regions.scene, way, std::numeric_limits<double>::infinity(), path))
         return stop_at_end(regions, way, leg, counters);
     return PlaceBy<Scalar>(regions, path, leg, counters).beyond();
 }
 
-#define PIERCE_PLACES(Scalar, Way)                                                                                 \
-    template RegionPlace<Scalar> stop(const RegionScene<Scalar>&, const Way<Scalar>&, const Leg<Scalar>&,                \
-                                QueryCounters&);                                                                   \
-    template RegionPlace<Scalar> cross(const RegionScene<Scalar>&, const Way<Scalar>&, const Leg<Scalar>&, QueryCounters&)
+#define PIERCE_PLACES(Scalar, Way)                                                                         \
+    template RegionPlace<Scalar> stop(const RegionScene<Scalar>&, const Way<Scalar>&, const Leg<Scalar>&,  \
+                                      QueryCounters&);                                                     \
+    template RegionPlace<Scalar> cross(const RegionScene<Scalar>&, const Way<Scalar>&, const Leg<Scalar>&, \
+                                       QueryCounters&)
 PIERCE_PLACES(float, Segment);
 PIERCE_PLACES(float, Ray);
 PIERCE_PLACES(double, Segment);

@@ -9,8 +9,8 @@ namespace pierce::detail {
 template <class Scalar>
 struct RegionScene {
     const Scene<Scalar>& scene;
-    std::vector<FaceRegions> labels;   ///< of the caller's faces
-    RawArray<TriangleRef> where;       ///< of each triangle; not set for those of area zero
+    std::vector<FaceRegions> labels;  ///< of the caller's faces
+    RawArray<TriangleRef> where;      ///< of each triangle; not set for those of area zero
     std::uint32_t outside = 0;
 
     /// On the side that a path comes from which crosses the triangle with this sign (crossing.h).

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include <query/parameter.h>
-#include <query/ways.h>
 #include <query/region_order.h>
 #include <query/values.h>
+#include <query/ways.h>
 
 namespace pierce::detail {
 
@@ -269,18 +269,16 @@ std::size_t walk(const RegionScene<Scalar>& regions, const Way& way, std::span<L
         out[0].consistent = true;
         out[0].region = Regions<Scalar>::no_region;
     }
-    if (count == 1 && out[0].face == no_face)
-        out[0].region = out[0].next = region_at(regions, start_of(way), counters);
+    if (count == 1 && out[0].face == no_face) out[0].region = out[0].next = region_at(regions, start_of(way), counters);
     set_values(regions, path, out.first(count), end_of(way), counters);
     return count;
 }
 
-#define PIERCE_LEGS(Scalar)                                                                                        \
-    template std::size_t find_legs(const RegionScene<Scalar>&, const Path&, std::span<Leg<Scalar>>,                \
-                                   QueryCounters&);                                                                \
-    template std::uint32_t region_at(const RegionScene<Scalar>&, const Point&, QueryCounters&);                    \
-    template std::size_t walk(const RegionScene<Scalar>&, const Segment<Scalar>&, std::span<Leg<Scalar>>,          \
-                              QueryCounters&);                                                                     \
+#define PIERCE_LEGS(Scalar)                                                                                          \
+    template std::size_t find_legs(const RegionScene<Scalar>&, const Path&, std::span<Leg<Scalar>>, QueryCounters&); \
+    template std::uint32_t region_at(const RegionScene<Scalar>&, const Point&, QueryCounters&);                      \
+    template std::size_t walk(const RegionScene<Scalar>&, const Segment<Scalar>&, std::span<Leg<Scalar>>,            \
+                              QueryCounters&);                                                                       \
     template std::size_t walk(const RegionScene<Scalar>&, const Ray<Scalar>&, std::span<Leg<Scalar>>, QueryCounters&)
 PIERCE_LEGS(float);
 PIERCE_LEGS(double);

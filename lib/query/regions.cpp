@@ -21,8 +21,8 @@ struct Regions<Scalar>::Impl {
 
 template <class Scalar>
 Regions<Scalar>::Regions(const CollisionMesh<Scalar>& mesh, std::span<const FaceRegions> labels, std::uint32_t outside)
-    : impl_(std::make_unique<Impl>(
-          Impl{*mesh.impl_, {mesh.impl_->scene, {labels.begin(), labels.end()}, {}, outside}})) {
+    : impl_(
+          std::make_unique<Impl>(Impl{*mesh.impl_, {mesh.impl_->scene, {labels.begin(), labels.end()}, {}, outside}})) {
     const Scene<Scalar>& scene = mesh.impl_->scene;
     RawArray<TriangleRef>& where = impl_->scene.where;
     where = RawArray<TriangleRef>(scene.triangles.size());

@@ -33,5 +33,6 @@ void repeated_steps(Run& run);
 void scales(Run& run);
 void ends_on_the_plane(Run& run);
 void collide_and_slide(Run& run);
+void lost_particles(Run& run);
 
 }  // namespace pierce::bench

@@ -40,6 +40,7 @@ int measure(bool quick) {
     scales(run);
     ends_on_the_plane(run);
     collide_and_slide(run);
+    lost_particles(run);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     std::cerr << "took " << static_cast<int>(taken.count()) << " s; promises broken by pierce: " << run.failures()
               << '\n';

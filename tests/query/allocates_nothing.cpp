@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdio>
 
+#include <pierce/regions.h>
 #include <query/batch_world.h>
 #include <support/executors.h>
 #include <support/own_new.h>
@@ -87,7 +88,18 @@ void check() {
             counts[i] = static_cast<int>(mesh.passages(segments[i], passages, {.accept = accept}, touches));
         }
     });
-    if (counters.exact_decisions == 0) {
+    const std::vector<FaceRegions> labels(mesh.statistics().faces, {1, 2});
+    const Regions<Scalar> regions(mesh, labels);
+    std::array<Leg<Scalar>, 8> legs;
+    std::uint32_t sum = 0;
+    expect_none("walks", [&] {
+        for (std::size_t i = 0; i < segments.size(); i += 5) {
+            sum += regions.region_at(segments[i].to);
+            if (regions.walk(segments[i], legs) > 0)
+                sum += regions.cross(segments[i], legs[0]).region + regions.stop(segments[i], legs[0]).region;
+        }
+    });
+    if (sum == 0 || counters.exact_decisions == 0) {
         std::puts("nothing was decided exactly");
         failed = true;
     }

@@ -1,8 +1,8 @@
 // Whether labels agree is found out, and where they do not.
 #include <numeric>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <pierce/pierce.h>
 #include <support/region_models.h>

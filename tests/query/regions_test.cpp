@@ -1,5 +1,4 @@
-// Regions: walks against a judge in rationals that looks at all triangles, and against cells that are looked up; and
-// what must be true of any walk.
+// Regions: walks against a judge in rationals that looks at all triangles, and what must be true of any walk.
 #include <gtest/gtest.h>
 
 #include <pierce/pierce.h>
@@ -20,20 +19,6 @@ bool within_an_ulp(Scalar value, const mpq_class& exact) {
     return value == 0 && exact <= static_cast<double>(std::numeric_limits<Scalar>::denorm_min());
 }
 
-template <class Scalar>
-std::string said(const Segment<Scalar>& way) {
-    std::ostringstream out;
-    out << std::hexfloat << "segment " << way.from.transpose() << " -> " << way.to.transpose();
-    return out.str();
-}
-template <class Scalar>
-std::string said(const Ray<Scalar>& way) {
-    std::ostringstream out;
-    out << std::hexfloat << "ray " << way.origin.transpose() << " along " << way.direction.transpose() << " to "
-        << way.limit;
-    return out.str();
-}
-
 /// All legs are as the judge says. Returns how many.
 template <class Scalar, class Way>
 std::size_t judge(const Regions<Scalar>& regions, const RegionModel<Scalar>& model, const Way& way) {
@@ -48,6 +33,9 @@ std::size_t judge(const Regions<Scalar>& regions, const RegionModel<Scalar>& mod
         const OracleLeg& e = expected[i];
         const auto text = [&] { return said(way) + " leg " + std::to_string(i); };
         EXPECT_EQ(leg.triangle, e.triangle.value_or(no_face)) << text();
+        if (e.triangle) {
+            EXPECT_EQ(leg.face, model.soup.view().face_of(*e.triangle)) << text();
+        }
         EXPECT_EQ(leg.consistent, e.consistent) << text();
         EXPECT_EQ(leg.entry, entry) << text();
         EXPECT_GE(leg.exit, leg.entry) << text();
@@ -97,6 +85,9 @@ RegionModel<Scalar> handful(double size, Random& random) {
         const auto region = [&] { return static_cast<std::uint32_t>(random.below(4)); };
         model.labels.push_back({region(), region()});
     }
+    // Some are two triangles to a face.
+    if (random.chance(0.3))
+        for (std::uint32_t t = 0; t < 12; ++t) model.soup.faces.push_back(t / 2);
     return model;
 }
 
@@ -114,7 +105,8 @@ class Flights {
             for (int k = 0; k < 3; ++k) ray.direction[k] = static_cast<Scalar>(random_.between_ints(-2, 2));
         constexpr int k_range = std::numeric_limits<Scalar>::max_exponent / 2 - 40;
         if (random_.chance(0.3)) ray.direction *= std::ldexp(Scalar(1), random_.between_ints(-k_range, k_range));
-        if (random_.chance(0.1)) ray.direction[static_cast<int>(random_.below(3))] = std::numeric_limits<Scalar>::denorm_min();
+        if (random_.chance(0.1))
+            ray.direction[static_cast<int>(random_.below(3))] = std::numeric_limits<Scalar>::denorm_min();
         if (!ray.direction.allFinite()) ray.direction = V<Scalar>(1, 0, 0);
         if (random_.chance(0.3)) ray.limit = static_cast<Scalar>(random_.between_ints(0, 4)) / 2;
         return ray;
@@ -149,95 +141,10 @@ std::size_t judge_many(std::size_t rounds, std::uint64_t seed) {
         const CollisionMesh<Scalar> mesh(model.soup.view());
         const Regions<Scalar> regions(mesh, model.labels, 9);
         Flights<Scalar> flights(model, size, random);
-        for (int i = 0; i < 20; ++i) legs += judge(regions, model, flights.segment()) + judge(regions, model, flights.ray());
+        for (int i = 0; i < 20; ++i)
+            legs += judge(regions, model, flights.segment()) + judge(regions, model, flights.ray());
     }
     return legs;
-}
-
-/// The colours that a moved flight goes through, cell by cell.
-std::vector<std::uint32_t> colours_of(const ColouredCubes& cubes, const std::array<int, 3>& from,
-                                      const std::array<int, 3>& to) {
-    const int edge = static_cast<int>(cubes.edge);
-    struct Plane {
-        int past;  ///< how far it is from the start: the fraction is past / way
-        int way;
-        std::size_t axis;
-        bool up;
-    };
-    std::vector<Plane> planes;
-    std::array<int, 3> cell{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const auto floor_of = [edge](int x) { return (x >= 0 ? x : x - edge + 1) / edge; };
-        cell[k] = floor_of(from[k]);
-        const int last = floor_of(to[k]);
-        for (int c = cell[k]; c < last; ++c) planes.push_back({(c + 1) * edge - from[k], to[k] - from[k], k, true});
-        for (int c = cell[k]; c > last; --c) planes.push_back({from[k] - c * edge, from[k] - to[k], k, false});
-    }
-    // Moved upwards, a flight comes to a plane earlier if it goes up, later if down; most so along x, then y.
-    std::sort(planes.begin(), planes.end(), [](const Plane& x, const Plane& y) {
-        const int left = x.past * y.way;
-        const int right = y.past * x.way;
-        if (left != right) return left < right;
-        if (x.axis == y.axis) return false;
-        return x.axis < y.axis ? x.up : !y.up;
-    });
-    std::vector<std::uint32_t> out = {cubes.at(cell)};
-    for (const Plane& plane : planes) {
-        cell[plane.axis] += plane.up ? 1 : -1;
-        if (cubes.at(cell) != out.back()) out.push_back(cubes.at(cell));
-    }
-    return out;
-}
-
-/// Segments between points of a lattice four times as fine as the cells, most of them aimed at edges and vertices.
-template <class Scalar>
-void walk_the_lattice(std::size_t models, std::size_t segments, std::uint64_t seed) {
-    Random random(seed);
-    std::size_t meetings = 0;
-    for (std::size_t m = 0; m < models; ++m) {
-        const ColouredCubes cubes(4, 3, 4, seed + m);
-        const double offset = m % 3 == 0 ? 0 : m % 3 == 1 ? 1000 : -65536;
-        const V<double> shift(offset, -offset, 2 * offset);
-        const RegionModel<Scalar> model = cubes.model.as<Scalar>(1, shift);
-        const CollisionMesh<Scalar> mesh(model.soup.view());
-        const Regions<Scalar> regions(mesh, model.labels);
-        const auto at = [&](const std::array<int, 3>& p) {
-            return (V<double>(p[0], p[1], p[2]) + shift).template cast<Scalar>().eval();
-        };
-        for (std::size_t i = 0; i < segments; ++i) {
-            std::array<int, 3> from{};
-            std::array<int, 3> way{};
-            const int step = random.chance(0.5) ? 4 : 2;
-            for (std::size_t k = 0; k < 3; ++k) from[k] = step * random.between_ints(-4 / step, 20 / step);
-            for (std::size_t k = 0; k < 3; ++k) way[k] = 2 * random.between_ints(-3, 3) * random.between_ints(1, 2);
-            const std::array<int, 3> middle = {from[0] + way[0], from[1] + way[1], from[2] + way[2]};
-            const std::array<int, 3> to = {middle[0] + way[0], middle[1] + way[1], middle[2] + way[2]};
-            const std::vector<std::uint32_t> expected = colours_of(cubes, from, to);
-            std::array<Leg<Scalar>, 64> legs;
-            const Segment<Scalar> segment{at(from), at(to)};
-            const std::size_t count = regions.walk(segment, legs);
-            ASSERT_EQ(count, expected.size()) << said(segment);
-            for (std::size_t j = 0; j < count; ++j) {
-                ASSERT_EQ(legs[j].region, expected[j]) << said(segment) << " leg " << j;
-                ASSERT_TRUE(legs[j].consistent) << said(segment) << " leg " << j;
-                meetings += j > 0 && legs[j].entry == legs[j].exit ? 1U : 0U;
-            }
-            ASSERT_EQ(regions.region_at(at(from)), expected.front()) << said(segment);
-            ASSERT_EQ(regions.region_at(at(to)), expected.back()) << said(segment);
-            // In two steps, and as a ray.
-            std::array<Leg<Scalar>, 64> first;
-            std::array<Leg<Scalar>, 64> second;
-            const std::size_t a = regions.walk(Segment<Scalar>{at(from), at(middle)}, first);
-            const std::size_t b = regions.walk(Segment<Scalar>{at(middle), at(to)}, second);
-            ASSERT_EQ(a + b, count + 1) << said(segment);
-            for (std::size_t j = 0; j + 1 < a; ++j) ASSERT_EQ(first[j].face, legs[j].face) << said(segment);
-            for (std::size_t j = 0; j < b; ++j) ASSERT_EQ(second[j].face, legs[a - 1 + j].face) << said(segment);
-            const V<Scalar> direction = at(middle) - at(from);
-            ASSERT_EQ(regions.walk(Ray<Scalar>{at(from), direction, 2}, first), count) << said(segment);
-            for (std::size_t j = 0; j < count; ++j) ASSERT_EQ(first[j].face, legs[j].face) << said(segment);
-        }
-    }
-    EXPECT_GT(meetings, models * segments / 20);
 }
 
 template <class Scalar>
@@ -245,29 +152,30 @@ class RegionsTest : public ::testing::Test {};
 using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(RegionsTest, Scalars, );
 
-TYPED_TEST(RegionsTest, walk_as_the_judge_says) { EXPECT_GT(judge_many<TypeParam>(300, 5), 12000U); }
+TYPED_TEST(RegionsTest, walk_as_the_judge_says) { EXPECT_GT(judge_many<TypeParam>(150, 5), 6000U); }
 
-TYPED_TEST(RegionsTest, walk_through_edges_and_vertices_of_cubes) { walk_the_lattice<TypeParam>(9, 1000, 7); }
-
-// A flight along the diagonal meets three planes in each vertex: moved, those across x first, then y, then z, if it
-// goes up; z first if down.
-TYPED_TEST(RegionsTest, come_one_after_the_other_in_a_vertex) {
-    using Scalar = TypeParam;
-    const ColouredCubes all(2, 1000000, 1, 3);  // eight colours
-    const RegionModel<Scalar> model = all.model.as<Scalar>(1, V<double>(0, 0, 0));
-    const CollisionMesh<Scalar> mesh(model.soup.view());
-    const Regions<Scalar> regions(mesh, model.labels);
-    std::array<Leg<Scalar>, 16> legs;
-    const Segment<Scalar> up{V<Scalar>(0.5, 0.5, 0.5), V<Scalar>(1.5, 1.5, 1.5)};
-    ASSERT_EQ(regions.walk(up, legs), 4U);
-    const std::array<std::array<int, 3>, 4> cells = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}};
-    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(legs[i].region, all.at(cells[i]));
-    EXPECT_EQ(legs[0].exit, Scalar(0.5));
-    EXPECT_EQ(legs[1].exit, Scalar(0.5));
-    EXPECT_EQ(legs[2].exit, Scalar(0.5));
-    EXPECT_EQ(legs[3].exit, Scalar(1));
-    ASSERT_EQ(regions.walk(Segment<Scalar>{up.to, up.from}, legs), 4U);
-    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(legs[i].region, all.at(cells[3 - i]));
+// Two sheets meet in an edge, which a flight goes through at a fraction that lies in the middle between two floats: each
+// sheet's own arithmetic rounds it up or down as its errors go, so that one leg had a length that it has not.
+TEST(RegionsFloat, give_equal_fractions_equal_bits) {
+    Random random(6);
+    const float k = 0x1p24F + 1236;  // every second whole number is a float here; k is one
+    const Segment<float> way{V<float>(0, 0, 0), V<float>(0x1p25F, 0, 0)};
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3<double> middle(static_cast<double>(k) + 1, 0, 0);
+        const Vec3<double> half(1, random.between_ints(1, 9), random.between_ints(1, 9));
+        RegionModel<float> model;
+        for (std::uint32_t sheet = 0; sheet < 2; ++sheet) {
+            const Vec3<double> side = 1e6 * random.in_cube();
+            add_triangle(model.soup, middle - half, middle + half, middle + side);
+            add_triangle(model.soup, middle + half, middle - half, middle - side);
+            model.labels.insert(model.labels.end(), 2, {sheet, sheet + 1});
+        }
+        const CollisionMesh<float> mesh(model.soup.view());
+        const Regions<float> regions(mesh, model.labels);
+        std::array<Leg<float>, 4> legs;
+        ASSERT_EQ(regions.walk(way, legs), 3U);
+        ASSERT_EQ(legs[0].exit, legs[1].exit) << i;
+    }
 }
 
 // Two boxes with a wall each in one plane, as a model has them whose volumes were never merged: the flight leaves the
@@ -391,8 +299,6 @@ class RegionsSoak : public ::testing::Test {};
 TYPED_TEST_SUITE(RegionsSoak, Scalars, );
 
 TYPED_TEST(RegionsSoak, walk_as_the_judge_says) { EXPECT_GT(judge_many<TypeParam>(10000, 15), 400000U); }
-
-TYPED_TEST(RegionsSoak, a_million_walks_through_edges_and_vertices) { walk_the_lattice<TypeParam>(60, 20000, 17); }
 
 }  // namespace
 }  // namespace pierce::test

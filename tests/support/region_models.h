@@ -2,11 +2,29 @@
 // divided by walls.
 #pragma once
 
-#include <support/meshes.h>
+#include <sstream>
+#include <string>
 
 #include <pierce/label_report.h>
+#include <pierce/ray.h>
+#include <support/meshes.h>
 
 namespace pierce::test {
+
+/// Flights as text that is exact.
+template <class Scalar>
+std::string said(const Segment<Scalar>& way) {
+    std::ostringstream out;
+    out << std::hexfloat << "segment " << way.from.transpose() << " -> " << way.to.transpose();
+    return out.str();
+}
+template <class Scalar>
+std::string said(const Ray<Scalar>& way) {
+    std::ostringstream out;
+    out << std::hexfloat << "ray " << way.origin.transpose() << " along " << way.direction.transpose() << " to "
+        << way.limit;
+    return out.str();
+}
 
 template <class Scalar>
 struct RegionModel {
@@ -29,7 +47,8 @@ struct ColouredCubes {
     ColouredCubes(int cells, int colours, int edge_length, std::uint64_t seed) : size(cells), edge(edge_length) {
         Random random(seed);
         colour.resize(static_cast<std::size_t>(size * size * size));
-        for (std::uint32_t& c : colour) c = static_cast<std::uint32_t>(random.below(static_cast<std::size_t>(colours) + 1));
+        for (std::uint32_t& c : colour)
+            c = static_cast<std::uint32_t>(random.below(static_cast<std::size_t>(colours) + 1));
         std::map<std::array<int, 3>, std::uint32_t> index;
         const auto vertex = [&](const std::array<int, 3>& p) {
             const auto [at, isnew] = index.try_emplace(p, static_cast<std::uint32_t>(model.soup.positions.size()));
@@ -86,9 +105,9 @@ struct ColouredCubes {
     }
 };
 
-/// Bumpy shells around one another, of 8 n^2 triangles each, the stretch between two of them divided into eight by walls
-/// along the axes' planes. Region 1 is the inside of the first; then come eight for each stretch, by octant; outside
-/// is 0.
+/// Bumpy shells around one another, of 8 n^2 triangles each, the stretch between two of them divided into eight by
+/// walls along the axes' planes. Region 1 is the inside of the first; then come eight for each stretch, by octant;
+/// outside is 0.
 inline RegionModel<double> divided_shells(int n, int shells) {
     RegionModel<double> model;
     const auto per_octant = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
@@ -98,7 +117,8 @@ inline RegionModel<double> divided_shells(int n, int shells) {
     };
     const auto region = [shells](int stretch, std::size_t octant) {
         if (stretch == 0) return 1U;
-        return stretch == shells ? 0U : 2 + 8 * static_cast<std::uint32_t>(stretch - 1) + static_cast<std::uint32_t>(octant);
+        return stretch == shells ? 0U
+                                 : 2 + 8 * static_cast<std::uint32_t>(stretch - 1) + static_cast<std::uint32_t>(octant);
     };
     const TriangleSoup<double> unit = star(n, radius);
     const auto count = static_cast<std::uint32_t>(unit.positions.size());

@@ -72,10 +72,12 @@ class RegionOracle {
             std::vector<Crossing> pile(first, last);
             std::uint32_t current = out.empty() ? beginning(pile) : out.back().next;
             while (!pile.empty()) {
-                auto best = std::find_if(pile.begin(), pile.end(), [&](const Crossing& x) { return x.near == current; });
+                auto best =
+                    std::find_if(pile.begin(), pile.end(), [&](const Crossing& x) { return x.near == current; });
                 if (best == pile.end()) best = pile.begin();
                 const std::uint32_t region = out.empty() ? best->near : out.back().next;
-                out.push_back({region, best->far, best->triangle, best->from_front, region == best->near, best->at.c[0]});
+                out.push_back(
+                    {region, best->far, best->triangle, best->from_front, region == best->near, best->at.c[0]});
                 current = best->far;
                 pile.erase(best);
             }
@@ -144,8 +146,7 @@ class RegionOracle {
     }
     static std::uint32_t beginning(const std::vector<Crossing>& pile) {
         for (const Crossing& x : pile)
-            if (std::none_of(pile.begin(), pile.end(),
-                             [&](const Crossing& y) { return &x != &y && y.far == x.near; }))
+            if (std::none_of(pile.begin(), pile.end(), [&](const Crossing& y) { return &x != &y && y.far == x.near; }))
                 return x.near;
         return pile[0].near;
     }
