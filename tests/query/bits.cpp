@@ -1,9 +1,11 @@
 // Prints one fingerprint of many answers, so that builds by different compilers and flags can be compared
 // (tests/same_bits).
+#include <bit>
 #include <cmath>
 #include <cstdio>
 
 #include <pierce/collision_mesh.h>
+#include <pierce/regions.h>
 #include <support/hash.h>
 #include <support/meshes.h>
 #include <support/segments.h>
@@ -33,6 +35,7 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
     const TriangleSoup<Scalar> soup = moved<Scalar>(unit, scale, {offset, -offset, offset});
     const CollisionMesh<Scalar> mesh(soup.view());
     Random random(17);
+    using Whole = std::conditional_t<sizeof(Scalar) == 4, std::uint32_t, std::uint64_t>;
     std::array<Hit<Scalar>, 4> hits;
     std::vector<Segment<Scalar>> segments;
     for (int i = 0; i < count; ++i) {
@@ -53,6 +56,30 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
         if (const auto hit = mesh.first_hit(segment)) hash.add(*hit);
         hash.add(static_cast<std::uint64_t>(mesh.crossings(segment)));
         hash.add(mesh.contains(segment.from) ? 1 : 0);
+        const Ray<Scalar> ray{segment.from, segment.to - segment.from};
+        if (const auto hit = mesh.first_hit(ray, {.sides = Sides::both})) hash.add(*hit);
+        hash.add(static_cast<std::uint64_t>(mesh.crossings(ray)));
+        std::array<Passage<Scalar>, 4> passages;
+        const std::size_t places = mesh.passages(segment, passages);
+        hash.add(places);
+        for (std::size_t k = 0; k < std::min(places, passages.size()); ++k) {
+            hash.add(static_cast<std::uint64_t>(passages[k].crossings));
+            hash.add(passages[k].face_count);
+            hash.add(std::bit_cast<Whole>(passages[k].fraction));
+        }
+        hash.add(static_cast<std::uint64_t>(mesh.locate(soup.positions[t[0]]).face_count));
+    }
+    std::vector<FaceRegions> labels;
+    for (std::uint32_t face = 0; face < soup.triangles.size(); ++face) labels.push_back({face % 7, face % 5});
+    const Regions<Scalar> regions(mesh, labels);
+    std::array<Leg<Scalar>, 8> legs;
+    for (std::size_t i = 0; i < segments.size(); i += 10) {
+        const std::size_t legs_written = regions.walk(segments[i], legs);
+        for (std::size_t k = 0; k < legs_written; ++k) {
+            hash.add(legs[k].region);
+            hash.add(std::bit_cast<Whole>(legs[k].exit));
+        }
+        hash.add(regions.region_at(segments[i].to));
     }
     std::vector<std::optional<Hit<Scalar>>> first(segments.size());
     std::vector<std::uint8_t> any(segments.size());
