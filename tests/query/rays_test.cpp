@@ -197,14 +197,14 @@ std::size_t judge(std::size_t rounds, std::size_t count_each, std::uint64_t seed
 }
 
 template <class Scalar>
-class Rays : public ::testing::Test {};
+class RayQueries : public ::testing::Test {};
 using Scalars = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(Rays, Scalars, );
+TYPED_TEST_SUITE(RayQueries, Scalars, );
 
-TYPED_TEST(Rays, are_decided_exactly) { judge<TypeParam>(200, 50, 91); }
+TYPED_TEST(RayQueries, are_decided_exactly) { judge<TypeParam>(200, 50, 91); }
 
 // Batches: the bits of the single calls, from an array of rays and from arrays of origins, directions and limits.
-TYPED_TEST(Rays, in_batches_have_the_bits_of_single_calls) {
+TYPED_TEST(RayQueries, in_batches_have_the_bits_of_single_calls) {
     using Scalar = TypeParam;
     Random random(93);
     const Threads threads;
@@ -267,10 +267,10 @@ TYPED_TEST(Rays, in_batches_have_the_bits_of_single_calls) {
 }
 
 template <class Scalar>
-class RaysSoak : public ::testing::Test {};
-TYPED_TEST_SUITE(RaysSoak, Scalars, );
+class RayQueriesSoak : public ::testing::Test {};
+TYPED_TEST_SUITE(RayQueriesSoak, Scalars, );
 
-TYPED_TEST(RaysSoak, ten_million_decisions) { EXPECT_GE(judge<TypeParam>(10000, 50, 92), std::size_t{5'000'000}); }
+TYPED_TEST(RayQueriesSoak, ten_million_decisions) { EXPECT_GE(judge<TypeParam>(10000, 50, 92), std::size_t{5'000'000}); }
 
 }  // namespace
 }  // namespace pierce::test
