@@ -1,5 +1,5 @@
-// What a program in C gives, as what the C++ interface takes; what is missing is an std::invalid_argument that names the
-// function.
+// What a program in C gives, as what the C++ interface takes. What is missing is an std::invalid_argument that names
+// the function.
 #pragma once
 
 #include <cstring>

@@ -6,7 +6,8 @@
 #include <pierce/pierce.h>
 #include <pierce/pierce_c.h>
 
-#define SAME_SIZE(Outside, Inside) static_assert(sizeof(Outside) == sizeof(Inside) && alignof(Outside) == alignof(Inside))
+#define SAME_SIZE(Outside, Inside) \
+    static_assert(sizeof(Outside) == sizeof(Inside) && alignof(Outside) == alignof(Inside))
 #define SAME_PLACE(Outside, Inside, member)                               \
     static_assert(offsetof(Outside, member) == offsetof(Inside, member)); \
     static_assert(sizeof(Outside::member) == sizeof(Inside::member))

@@ -1,5 +1,5 @@
-// The C interface: no thought of its own, each function is one of C++. What is there for float and for double is written
-// once, in the files of both/ that are included twice here: C(name) is pierce_name_f, then pierce_name_d.
+// The C interface: no thought of its own, each function is one of C++. What is there for float and for double is
+// written once, in the files of both/ that are included twice here: C(name) is pierce_name_f, then pierce_name_d.
 #include <pierce/pierce_c.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ extern "C" {
 const char* pierce_status_text(pierce_status status) {
     const int number = number_of(status);
     if (number < PIERCE_OK || number > PIERCE_FAILED) return "";
-    return to_string(static_cast<Status>(number)).data();
+    return to_string(static_cast<Status>(number)).data();  // a literal: a 0 is behind it
 }
 
 const char* pierce_last_message(void) { return last_message().c_str(); }
