@@ -30,8 +30,8 @@
 // name, which takes NULL as well. Arrays given to a `create` may be freed afterwards. Queries may run on any number of
 // threads at once, but each thread needs counters of its own.
 //
-// **Building.** `cc program.c $(pkg-config --cflags --libs pierce)`; a static libpierce.a needs `-lstdc++ -lm` behind
-// it. With CMake, `find_package(pierce)` and `pierce::pierce`: it links as C++ where pierce is static, which needs
+// **Building.** `cc program.c $(pkg-config --cflags --libs pierce)`; `--static` adds `-lstdc++ -lm`, which a static
+// libpierce.a needs behind it. With CMake, `find_package(pierce)` and `pierce::pierce`: it links as C++ where pierce is static, which needs
 // `project(... LANGUAGES C CXX)`.
 //
 // Not here, for C++ only: `explain`, the lists of examples in reports, single-triangle kernels and fans, OpenMesh.

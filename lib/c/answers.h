@@ -23,11 +23,18 @@ pierce_status guarded(const char* name, Call&& call, Status of_mesh = Status::ba
     return static_cast<pierce_status>(status);
 }
 
+template <class Scalar, class Outside>
+bool give_no_hit(Outside* out) noexcept {
+    if (out != nullptr) *same_bytes<Hit<Scalar>>(out) = no_hit<Scalar>;
+    return false;
+}
+
 /// Writes the hit, or that there is none, and returns whether there is one.
 template <class Scalar, class Outside>
 bool give(const std::optional<Hit<Scalar>>& hit, Outside* out) noexcept {
-    if (out != nullptr) *same_bytes<Hit<Scalar>>(out) = hit.value_or(no_hit<Scalar>);
-    return hit.has_value();
+    if (!hit) return give_no_hit<Scalar>(out);
+    if (out != nullptr) *same_bytes<Hit<Scalar>>(out) = *hit;
+    return true;
 }
 
 inline void give(std::size_t count, std::size_t* out) noexcept {

@@ -15,8 +15,8 @@ void first_hits(const vertex* vertices, const std::uint16_t* indices, const Scal
     const pierce::CollisionMesh<Scalar> mesh({positions, pierce::TrianglesView(indices, CUBE_FACES)});
     for (std::size_t i = 0; i < count; ++i) {
         const Scalar* s = segments + 6 * i;
-        const auto hit = mesh.first_hit({pierce::Vec3<Scalar>(s[0], s[1], s[2]), pierce::Vec3<Scalar>(s[3], s[4], s[5])},
-                                        {.sides = pierce::Sides::both});
+        const pierce::Vec3<Scalar> from(s[0], s[1], s[2]), to(s[3], s[4], s[5]);
+        const auto hit = mesh.first_hit({from, to}, {.sides = pierce::Sides::both});
         const pierce::Hit<Scalar> value = hit.value_or(pierce::no_hit<Scalar>);
         std::memcpy(&hits[i], &value, sizeof value);
     }

@@ -4,7 +4,7 @@ bool C(first_hit)(const C(mesh)* mesh, const SCALAR* from, const SCALAR* to, C(h
                   const pierce_query_options* options) {
     QueryOptions how;
     if (mesh == nullptr || from == nullptr || to == nullptr || !read_options(options, how))
-        return give<SCALAR>(std::nullopt, hit);
+        return give_no_hit<SCALAR>(hit);
     return give(mesh->mesh.first_hit({vector_of(from), vector_of(to)}, how), hit);
 }
 
@@ -35,7 +35,7 @@ bool C(first_hit_of_ray)(const C(mesh)* mesh, const SCALAR* origin, const SCALAR
                          const pierce_query_options* options) {
     QueryOptions how;
     if (mesh == nullptr || origin == nullptr || direction == nullptr || !read_options(options, how))
-        return give<SCALAR>(std::nullopt, hit);
+        return give_no_hit<SCALAR>(hit);
     return give(mesh->mesh.first_hit(Ray<SCALAR>{vector_of(origin), vector_of(direction), limit}, how), hit);
 }
 
