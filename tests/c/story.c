@@ -130,7 +130,8 @@ static void regions(const pierce_mesh_d* cubes) {
     const double down[3] = {0, 0, -1};
     uint32_t region = 0;
     int crossed = 0;
-    while (pierce_walk_of_ray_d(model, at, down, INFINITY, legs, 1) == 1 && legs[0].face != PIERCE_NO_FACE) {
+    while (pierce_walk_of_ray_d(model, at, down, INFINITY, legs, 1) == 1 && legs[0].face != PIERCE_NO_FACE &&
+           crossed < 100) {
         pierce_region_place_d place;
         CHECK(legs[0].region == region);
         CHECK(pierce_stop_of_ray_d(model, at, down, INFINITY, &legs[0], &place) && place.region == region);

@@ -78,6 +78,21 @@ void meshes(const pierce_mesh_d* cubes) {
     files();
 }
 
+/* A mesh, but no points: no hit, and no crash. */
+static void null_points(const pierce_mesh_d* cubes) {
+    const double point[3] = {2, 2, 2};
+    pierce_hit_d hit;
+    CHECK(!pierce_first_hit_d(cubes, NULL, point, &hit, NULL) && hit.face == PIERCE_NO_FACE);
+    CHECK(!pierce_any_hit_d(cubes, point, NULL, NULL) && pierce_crossings_d(cubes, NULL, NULL, NULL) == 0);
+    CHECK(!pierce_first_hit_of_ray_d(cubes, point, NULL, 1, &hit, NULL) && hit.face == PIERCE_NO_FACE);
+    CHECK(pierce_winding_number_d(cubes, NULL, NULL) == 0 && !pierce_contains_d(cubes, NULL, NULL));
+    CHECK(pierce_locate_d(cubes, NULL, NULL, 0, NULL).place == PIERCE_OUTSIDE);
+    /* Room without an array: as if there were none. */
+    const double above[3] = {2, 2, 9};
+    CHECK(pierce_all_hits_d(cubes, above, point, NULL, 7, NULL) > 0);
+    CHECK(pierce_passages_d(cubes, above, point, NULL, 7, NULL, 7, NULL) > 0);
+}
+
 /* Every call with nothing at all: a status or no hit, and no crash. */
 static void nulls(void) {
     pierce_mesh_d* mesh = NULL;
@@ -141,5 +156,6 @@ void errors(const pierce_mesh_d* cubes) {
                                   .limit_count = 3};
     CHECK(pierce_any_hits_of_rays_d(cubes, &limits, &answer, NULL, NULL, NULL) == PIERCE_BAD_ARGUMENT);
     CHECK(strstr(pierce_last_message(), "1 origins and 3 limits") != NULL);
+    null_points(cubes);
     nulls();
 }
