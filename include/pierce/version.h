@@ -1,7 +1,5 @@
-// The version of these headers. CMakeLists.txt reads it here, so that there is only one.
+// The version of these headers, in C and C++. CMakeLists.txt reads it here, so that there is only one.
 #pragma once
-
-#include <string_view>
 
 #define PIERCE_VERSION_MAJOR 0
 #define PIERCE_VERSION_MINOR 1
@@ -14,6 +12,9 @@
 #define PIERCE_TEXT_OF(value) #value
 #define PIERCE_TEXT(value) PIERCE_TEXT_OF(value)
 
+#ifdef __cplusplus
+#include <string_view>
+
 namespace pierce {
 
 /// "major.minor.patch".
@@ -21,3 +22,4 @@ inline constexpr std::string_view version =
     PIERCE_TEXT(PIERCE_VERSION_MAJOR) "." PIERCE_TEXT(PIERCE_VERSION_MINOR) "." PIERCE_TEXT(PIERCE_VERSION_PATCH);
 
 }  // namespace pierce
+#endif
