@@ -8,7 +8,7 @@
 // Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, ray.h, location.h, passage.h,
 // batch.h, collision_mesh.h; regions.h for particle transport; result.h for programs without exceptions.
 // <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single
-// triangles.
+// triangles. <pierce/pierce_c.h> is for programs in C.
 #pragma once
 
 #include <pierce/batch.h>

@@ -31,8 +31,8 @@
 // threads at once, but each thread needs counters of its own.
 //
 // **Building.** `cc program.c $(pkg-config --cflags --libs pierce)`; `--static` adds `-lstdc++ -lm`, which a static
-// libpierce.a needs behind it. With CMake, `find_package(pierce)` and `pierce::pierce`: it links as C++ where pierce is static, which needs
-// `project(... LANGUAGES C CXX)`.
+// libpierce.a needs behind it. With CMake, `find_package(pierce)` and `pierce::pierce` in a
+// `project(... LANGUAGES C CXX)`: the C++ compiler links the program where pierce is static.
 //
 // Not here, for C++ only: `explain`, the lists of examples in reports, single-triangle kernels and fans, OpenMesh.
 #pragma once

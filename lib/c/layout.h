@@ -14,20 +14,20 @@
 
 namespace pierce::detail {
 
-#define SAME_HIT(Outside, Inside)                  \
-    SAME_SIZE(Outside, Inside);                    \
-    SAME_PLACE(Outside, Inside, fraction);         \
-    SAME_PLACE(Outside, Inside, point);            \
-    SAME_PLACE(Outside, Inside, position);         \
-    SAME_PLACE(Outside, Inside, normal);           \
-    SAME_PLACE(Outside, Inside, barycentric);      \
-    SAME_PLACE(Outside, Inside, exact_fraction);   \
-    SAME_PLACE(Outside, Inside, face);             \
-    SAME_PLACE(Outside, Inside, triangle);         \
-    SAME_PLACE(Outside, Inside, side);             \
-    SAME_PLACE(Outside, Inside, feature);          \
-    SAME_PLACE(Outside, Inside, feature_index);    \
-    SAME_PLACE(Outside, Inside, at_start);         \
+#define SAME_HIT(Outside, Inside)                \
+    SAME_SIZE(Outside, Inside);                  \
+    SAME_PLACE(Outside, Inside, fraction);       \
+    SAME_PLACE(Outside, Inside, point);          \
+    SAME_PLACE(Outside, Inside, position);       \
+    SAME_PLACE(Outside, Inside, normal);         \
+    SAME_PLACE(Outside, Inside, barycentric);    \
+    SAME_PLACE(Outside, Inside, exact_fraction); \
+    SAME_PLACE(Outside, Inside, face);           \
+    SAME_PLACE(Outside, Inside, triangle);       \
+    SAME_PLACE(Outside, Inside, side);           \
+    SAME_PLACE(Outside, Inside, feature);        \
+    SAME_PLACE(Outside, Inside, feature_index);  \
+    SAME_PLACE(Outside, Inside, at_start);       \
     SAME_PLACE(Outside, Inside, reserved)
 SAME_HIT(pierce_hit_f, Hit<float>);
 SAME_HIT(pierce_hit_d, Hit<double>);

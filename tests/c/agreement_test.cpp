@@ -47,8 +47,8 @@ struct Buffers {
 template <class Scalar>
 struct Cubes {
     const Buffers buffers;
-    const CollisionMesh<Scalar> mesh{{{buffers.vertices[0].position, CUBE_CORNERS, sizeof(vertex)},
-                                      TrianglesView(buffers.indices, CUBE_FACES)}};
+    const CollisionMesh<Scalar> mesh{
+        {{buffers.vertices[0].position, CUBE_CORNERS, sizeof(vertex)}, TrianglesView(buffers.indices, CUBE_FACES)}};
 };
 
 /// The same cubes in C, where floats are all that the buffers hold.

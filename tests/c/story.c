@@ -111,8 +111,8 @@ static void passages(const pierce_mesh_d* cubes) {
 static void regions(const pierce_mesh_d* cubes) {
     pierce_face_regions labels[CUBE_FACES];
     for (uint32_t f = 0; f < CUBE_FACES; ++f)
-        labels[f] = f < 12 ? (pierce_face_regions){.front = 0, .behind = 1}
-                           : (pierce_face_regions){.front = 1, .behind = 2};
+        labels[f] =
+            f < 12 ? (pierce_face_regions){.front = 0, .behind = 1} : (pierce_face_regions){.front = 1, .behind = 2};
     pierce_regions_d* model = NULL;
     CHECK(pierce_regions_create_d(cubes, labels, CUBE_FACES, 0, &model) == PIERCE_OK);
     pierce_label_report report;

@@ -21,11 +21,11 @@ extern "C" {
 /// Why something could not be done. The numbers stay what they are.
 typedef enum pierce_status {
     PIERCE_OK = 0,
-    PIERCE_BAD_MESH = 1,       ///< the mesh can't be used: an index out of range, a coordinate that is not finite
-    PIERCE_BAD_FILE = 2,       ///< the file can't be read, or holds no mesh that can be used
-    PIERCE_BAD_ARGUMENT = 3,   ///< an option without a meaning, sizes that don't fit, a null pointer
+    PIERCE_BAD_MESH = 1,      ///< the mesh can't be used: an index out of range, a coordinate that is not finite
+    PIERCE_BAD_FILE = 2,      ///< the file can't be read, or holds no mesh that can be used
+    PIERCE_BAD_ARGUMENT = 3,  ///< an option without a meaning, sizes that don't fit, a null pointer
     PIERCE_OUT_OF_MEMORY = 4,
-    PIERCE_FAILED = 5,         ///< anything else, from the caller's executor or the system
+    PIERCE_FAILED = 5,  ///< anything else, from the caller's executor or the system
 } pierce_status;
 
 /// A few words for people, such as "bad mesh". Empty for a number that is no status. Never freed.
@@ -59,7 +59,7 @@ typedef struct pierce_points_d {
 /// triangle to the next `stride` bytes. 0 stands for three indices: one triangle behind the other.
 typedef struct pierce_triangles {
     const uint32_t* first;
-    size_t count;            ///< triangles, not indices
+    size_t count;  ///< triangles, not indices
     ptrdiff_t stride;
     const uint16_t* shorts;  ///< used if `first` is NULL: indices of 16 bits
     /// For each triangle the number of its face, with which hits name it; several triangles may share one. NULL: the

@@ -57,16 +57,16 @@ PIERCE_EXPORT void pierce_mesh_statistics_d(const pierce_mesh_d* mesh, pierce_st
 
 /// What is odd about a mesh (mesh_report.h). Vertices with equal coordinates count as one.
 typedef struct pierce_mesh_report {
-    bool closed;               ///< no particle gets from one side to the other without a hit
-    size_t zero_area;          ///< triangles
-    size_t duplicates;         ///< triangles with the corners of one before
+    bool closed;        ///< no particle gets from one side to the other without a hit
+    size_t zero_area;   ///< triangles
+    size_t duplicates;  ///< triangles with the corners of one before
     size_t border_edges;
     size_t non_manifold_edges;
     size_t misoriented_edges;
     size_t non_manifold_vertices;
     size_t t_junctions;
     size_t components;
-    size_t edges_with[9];      ///< [n]: edges that n triangles share; [8]: with 8 and more
+    size_t edges_with[9];  ///< [n]: edges that n triangles share; [8]: with 8 and more
 } pierce_mesh_report;
 
 /// Looks at the mesh anew with each call. `report` may be NULL. The text, a few lines for people, goes to `text` as far

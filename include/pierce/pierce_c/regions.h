@@ -40,14 +40,14 @@ PIERCE_EXPORT uint32_t pierce_region_at_d(const pierce_regions_d* regions, const
 
 /// A part of a flight that lies in one region.
 typedef struct PIERCE_MAY_ALIAS pierce_leg_f {
-    float entry;        ///< fraction of the segment, or t of the ray
+    float entry;  ///< fraction of the segment, or t of the ray
     float exit;
     uint32_t region;
-    uint32_t next;      ///< the region behind the face at `exit`; `region` where the flight ends
-    uint32_t face;      ///< the caller's number of the face at `exit`; PIERCE_NO_FACE where the flight ends
+    uint32_t next;  ///< the region behind the face at `exit`; `region` where the flight ends
+    uint32_t face;  ///< the caller's number of the face at `exit`; PIERCE_NO_FACE where the flight ends
     uint32_t triangle;
-    uint8_t side;       ///< pierce_sides: that the flight comes to the face from
-    bool consistent;    ///< the face at `exit` has `region` on this side: if not, the labels are wrong
+    uint8_t side;     ///< pierce_sides: that the flight comes to the face from
+    bool consistent;  ///< the face at `exit` has `region` on this side: if not, the labels are wrong
 } pierce_leg_f;
 
 typedef struct PIERCE_MAY_ALIAS pierce_leg_d {

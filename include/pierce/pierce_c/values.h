@@ -23,13 +23,13 @@ typedef enum pierce_passage_kind { PIERCE_ENTERING = 0, PIERCE_LEAVING = 1, PIER
 /// A hit: `Hit` of hit.h, byte for byte (72 of them). With no hit `face` and `triangle` are PIERCE_NO_FACE, all else is
 /// 0.
 typedef struct PIERCE_MAY_ALIAS pierce_hit_f {
-    float fraction;         ///< of the segment, in [0, 1], or the ray's t: a lower bound that belongs to `point`
-    float point[3];         ///< where to stop: the way to it is clear, and it is on the near side of the face
-    float position[3];      ///< the true point, each coordinate rounded correctly; may lie behind the face
-    float normal[3];        ///< of unit length, to the front of the face whichever side was hit
-    float barycentric[3];   ///< weights of the triangle's corners in the true point, in [0, 1]
-    float exact_fraction;   ///< the true fraction or t, within 1 ulp
-    uint32_t face;          ///< the caller's number
+    float fraction;        ///< of the segment, in [0, 1], or the ray's t: a lower bound that belongs to `point`
+    float point[3];        ///< where to stop: the way to it is clear, and it is on the near side of the face
+    float position[3];     ///< the true point, each coordinate rounded correctly; may lie behind the face
+    float normal[3];       ///< of unit length, to the front of the face whichever side was hit
+    float barycentric[3];  ///< weights of the triangle's corners in the true point, in [0, 1]
+    float exact_fraction;  ///< the true fraction or t, within 1 ulp
+    uint32_t face;         ///< the caller's number
     uint32_t triangle;
     uint8_t side;           ///< pierce_sides: front or back
     uint8_t feature;        ///< pierce_feature
@@ -66,7 +66,7 @@ typedef struct PIERCE_MAY_ALIAS pierce_face_touch {
 
 /// Where a point is (location.h).
 typedef struct PIERCE_MAY_ALIAS pierce_location {
-    uint8_t place;      ///< pierce_place
+    uint8_t place;  ///< pierce_place
     int winding_number;
     size_t face_count;  ///< how many triangles the point lies on
 } pierce_location;
@@ -74,17 +74,17 @@ typedef struct PIERCE_MAY_ALIAS pierce_location {
 /// One place where a segment passes through the surface or touches it, the faces that meet there taken together
 /// (passage.h).
 typedef struct PIERCE_MAY_ALIAS pierce_passage_f {
-    float fraction;      ///< in [0, 1], within 1 ulp
-    float position[3];   ///< the true point, rounded correctly
-    float normal[3];     ///< of `face`, to its front
-    uint32_t face;       ///< the one that stands for all of them
+    float fraction;     ///< in [0, 1], within 1 ulp
+    float position[3];  ///< the true point, rounded correctly
+    float normal[3];    ///< of `face`, to its front
+    uint32_t face;      ///< the one that stands for all of them
     uint32_t triangle;
-    size_t first_face;   ///< the place of its first face among those of all passages
+    size_t first_face;  ///< the place of its first face among those of all passages
     size_t face_count;
-    int crossings;       ///< how often it passes from front to back here, less how often the other way
-    uint8_t kind;        ///< pierce_passage_kind
-    uint8_t side;        ///< pierce_sides
-    uint8_t feature;     ///< pierce_feature
+    int crossings;    ///< how often it passes from front to back here, less how often the other way
+    uint8_t kind;     ///< pierce_passage_kind
+    uint8_t side;     ///< pierce_sides
+    uint8_t feature;  ///< pierce_feature
     uint8_t feature_index;
     bool at_start;
     bool at_end;
@@ -110,14 +110,14 @@ typedef struct PIERCE_MAY_ALIAS pierce_passage_d {
 /// What queries went through, added up over those that were given the same counters. Set it to zero first.
 typedef struct PIERCE_MAY_ALIAS pierce_counters {
     uint64_t queries;
-    uint64_t nodes;            ///< of the tree, or cells of the grid
-    uint64_t clusters;         ///< of up to eight triangles
-    uint64_t triangles;        ///< that the wide kernels could not refuse
+    uint64_t nodes;      ///< of the tree, or cells of the grid
+    uint64_t clusters;   ///< of up to eight triangles
+    uint64_t triangles;  ///< that the wide kernels could not refuse
     uint64_t exact_decisions;
     uint64_t exact_orders;
     uint64_t exact_values;
     uint64_t exact_sides;
-    uint64_t retreats;         ///< places for verified points that were not clear
+    uint64_t retreats;  ///< places for verified points that were not clear
 } pierce_counters;
 
 /// A hit before it is weighed against others.
@@ -149,7 +149,7 @@ typedef struct pierce_query_options {
 
 /// Zeros are the defaults: all faces count, from both sides.
 typedef struct pierce_passage_options {
-    bool one_sided;              ///< only faces that the segment's direction leads through from `side`
+    bool one_sided;  ///< only faces that the segment's direction leads through from `side`
     pierce_sides side;
     const double* max_fraction;  ///< NULL: 1
     const uint8_t* face_mask;
@@ -157,7 +157,7 @@ typedef struct pierce_passage_options {
     pierce_accept accept;
     void* accept_user;
     pierce_counters* counters;
-    bool stop_when_full;         ///< what comes after the passages that fit is not looked for, nor counted
+    bool stop_when_full;  ///< what comes after the passages that fit is not looked for, nor counted
 } pierce_passage_options;
 
 #ifdef __cplusplus
