@@ -241,8 +241,8 @@ class PIERCE_EXPORT CollisionMesh {
 
     friend class Regions<Scalar>;
 
-    struct Impl;
-    struct Release {
+    struct PIERCE_HIDDEN Impl;
+    struct PIERCE_HIDDEN Release {
         void operator()(Impl* impl) const noexcept;
     };
     std::unique_ptr<Impl, Release> impl_;  ///< never null: that of a mesh which was not built is shared by all such

@@ -115,7 +115,7 @@ class PIERCE_EXPORT Regions {
     [[nodiscard]] std::uint32_t outside() const noexcept;
 
   private:
-    struct Impl;
+    struct PIERCE_HIDDEN Impl;
     std::unique_ptr<Impl> impl_;
 };
 

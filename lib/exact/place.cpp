@@ -133,13 +133,9 @@ Point exact_position(const Path& path, const Corners& corners) {
     for (std::size_t k = 0; k < 3; ++k) {
         const double from = path.from[k];
         const double to = path.to[k];
-        // Of the triangle, and of the segment.
-        double low = std::min({corners[0][k], corners[1][k], corners[2][k]});
-        double high = std::max({corners[0][k], corners[1][k], corners[2][k]});
-        if (!path.ray) {
-            low = std::max(low, std::min(from, to));
-            high = std::min(high, std::max(from, to));
-        }
+        // A ray's end is no number: there what bounds the point is the triangle.
+        const double low = path.ray ? std::min({corners[0][k], corners[1][k], corners[2][k]}) : std::min(from, to);
+        const double high = path.ray ? std::max({corners[0][k], corners[1][k], corners[2][k]}) : std::max(from, to);
         const double near = path.ray ? from + to * fraction : from * (1 - fraction) + to * fraction;
         position[k] = Coordinate(a, b, lattice, path, k, low, high).rounded<Scalar>(std::clamp(near, low, high));
     }
