@@ -1,6 +1,7 @@
 // What batches are asked, and where they write their answers: views of the caller's memory.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -85,6 +86,15 @@ class Rays {
     const std::byte* limits_ = nullptr;  ///< null: `limit_` is that of all
     std::ptrdiff_t limit_stride_ = 0;
 };
+
+namespace detail {
+
+/// What is a batch of rays and not one of segments.
+template <class Range, class Scalar>
+concept RaysOf =
+    std::convertible_to<const Range&, Rays<Scalar>> && !std::convertible_to<const Range&, Segments<Scalar>>;
+
+}  // namespace detail
 
 /// Hits as one array for each of their members: entry i of each is of query i. Null arrays are not written. Points and
 /// vectors are three numbers in a row. For a miss `hit` is 0, `face` and `triangle` are `no_face`, and all others are

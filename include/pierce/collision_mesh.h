@@ -93,7 +93,8 @@ class PIERCE_EXPORT CollisionMesh {
     /// are then the ray's t, the exact one within 1 ulp, or the largest number where t is above it. The rules are those
     /// of the segment that ends at the ray's true end, and so are the promises: the way from `origin` to the hit's
     /// `point` has no hit, so that a chain of rays from point to point cannot get through a closed surface. A ray costs
-    /// what the part of it in the mesh's box costs. (Templates, so that `first_hit({from, to})` is a segment.)
+    /// what the part of it in the mesh's box costs, from origins up to some 2^80 mesh sizes away. (Templates, so that
+    /// `first_hit({from, to})` is a segment.)
     template <std::same_as<Ray<Scalar>> Way>
     [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Way& ray,
                                                        const QueryOptions& options = {}) const noexcept {
@@ -187,23 +188,23 @@ class PIERCE_EXPORT CollisionMesh {
     std::size_t all_hits(const Segments<Scalar>& segments, std::span<std::size_t> offsets, std::span<Hit<Scalar>> hits,
                          const QueryOptions& options = {}, const Executor& executor = {}) const;
 
-    /// Batches of rays: `first_hits(Rays(origins, directions), out)`.
-    template <std::same_as<Rays<Scalar>> Batch>
+    /// Batches of rays: a vector or span of them, or `first_hits(Rays(origins, directions), out)`.
+    template <detail::RaysOf<Scalar> Batch>
     std::size_t first_hits(const Batch& rays, const HitsOut<Scalar>& out, const QueryOptions& options = {},
                            const Executor& executor = {}) const {
         return first_hits_of_rays(rays, out, options, executor);
     }
-    template <std::same_as<Rays<Scalar>> Batch>
+    template <detail::RaysOf<Scalar> Batch>
     std::size_t any_hits(const Batch& rays, std::span<std::uint8_t> out, const QueryOptions& options = {},
                          const Executor& executor = {}) const {
         return any_hits_of_rays(rays, out, options, executor);
     }
-    template <std::same_as<Rays<Scalar>> Batch>
+    template <detail::RaysOf<Scalar> Batch>
     void crossings(const Batch& rays, std::span<int> out, QueryCounters* counters = nullptr,
                    const Executor& executor = {}) const {
         crossings_of_rays(rays, out, counters, executor);
     }
-    template <std::same_as<Rays<Scalar>> Batch>
+    template <detail::RaysOf<Scalar> Batch>
     std::size_t all_hits(const Batch& rays, std::span<std::size_t> offsets, std::span<Hit<Scalar>> hits,
                          const QueryOptions& options = {}, const Executor& executor = {}) const {
         return all_hits_of_rays(rays, offsets, hits, options, executor);

@@ -12,6 +12,9 @@ namespace pierce {
 /// limit * direction` as a program computes it, but decided by the same rules: what counts is whether the true end lies
 /// strictly behind the face's plane; a ray that ends on a face has not hit it yet (`Hit`).
 ///
+/// One exception: where it is 2^1022 or more from the origin to the far side of the mesh along an axis, the ray ends
+/// where numbers do, and what lies behind that is not hit.
+///
 /// `limit` may be infinite, as it is where it is left out. A direction of length zero and a limit of 0 hit nothing. A
 /// coordinate that is not finite, and a limit that is negative or NaN, make the ray invalid: it has no hit, and
 /// `MeshStatistics::invalid_queries` counts it.

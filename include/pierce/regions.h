@@ -65,7 +65,8 @@ struct RegionPlace {
 ///     region = place.region;
 ///
 /// Refers to the mesh, which must live longer; moving the mesh does no harm. Copies the labels. Queries are
-/// thread-safe, allocate nothing and end for every input.
+/// thread-safe, allocate nothing and end for every input. What was moved from can be assigned to and destroyed, no
+/// more.
 template <class Scalar>
 class PIERCE_EXPORT Regions {
   public:
@@ -104,12 +105,14 @@ class PIERCE_EXPORT Regions {
     /// face, in the region `next`. The way from the flight's start to the point crosses this one surface only. That is
     /// the true point moved off the plane by a grain, rounded, or two, four or eight grains; else one further along the
     /// flight. Where the next region is too thin for these the point lies in another, which `region` names: as a rule
-    /// the one that the flight comes to behind it. A leg without a face: as `stop`.
+    /// the one that the flight comes to behind it. A leg without a face, and one of another flight or mesh,
+    /// whose face this flight does not cross: the end of the flight, as for `stop`.
     [[nodiscard]] RegionPlace<Scalar> cross(const Segment<Scalar>& flight, const Leg<Scalar>& first) const noexcept;
     [[nodiscard]] RegionPlace<Scalar> cross(const Ray<Scalar>& flight, const Leg<Scalar>& first) const noexcept;
 
     /// Whether the labels agree wherever two faces bound one region: `LabelReport`. Looks at the faces around each
-    /// edge, in exact order. Takes memory for them; n log n time for n triangles.
+    /// edge, in exact order. Takes memory for them; n log n time for n triangles, and
+    /// the square of their number for triangles that coincide.
     [[nodiscard]] LabelReport check() const;
 
     [[nodiscard]] std::uint32_t outside() const noexcept;

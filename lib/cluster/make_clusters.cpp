@@ -52,8 +52,8 @@ Scalar unit_by_extent(const QuadBox<Scalar>& box) {
 }
 
 // A scene in a plane across an axis may be so small beside its distance from the origin that its coordinates would
-// overflow. There the unit is smaller: with the noise, which is a few units in the last place of the largest coordinate,
-// everything in such a scene is visited all the same.
+// overflow. There the unit is smaller: with the noise, which is a few units in the last place of the largest
+// coordinate, everything in such a scene is visited all the same.
 template <class Scalar>
 Scalar unit_of(const QuadBox<Scalar>& box) {
     const Scalar unit = unit_by_extent(box);

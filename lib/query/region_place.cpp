@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <exact/crossing.h>
 #include <query/grain.h>
 #include <query/values.h>
 #include <query/ways.h>
@@ -196,13 +197,24 @@ template <class Scalar, class Way>
     return place(from);
 }
 
+/// Whether the flight crosses the face at the end of a leg: not if the leg is of another flight or another mesh.
+template <class Scalar>
+bool is_crossed(const RegionScene<Scalar>& regions, const Path& path, const Leg<Scalar>& leg) {
+    if (leg.face == no_face || leg.triangle >= regions.where.size()) return false;
+    if (regions.where[leg.triangle] == k_nowhere) return false;
+    const Corners corners = regions.scene.corners(regions.where[leg.triangle]);
+    Measured measured;
+    measure_path<Scalar>(corners, path, measured);
+    return filter_strictly(measured, Sides::both).verdict == Verdict::hit || crossing(path, corners) != 0;
+}
+
 }  // namespace
 
 template <class Scalar, class Way>
 RegionPlace<Scalar> stop(const RegionScene<Scalar>& regions, const Way& way, const Leg<Scalar>& leg,
                          QueryCounters& counters) {
     Path path;
-    if (leg.face == no_face || !set_path(regions.scene, way, std::numeric_limits<double>::infinity(), path))
+    if (!set_path(regions.scene, way, std::numeric_limits<double>::infinity(), path) || !is_crossed(regions, path, leg))
         return stop_at_end(regions, way, leg, counters);
     return PlaceBy<Scalar>(regions, path, leg, counters).before();
 }
@@ -211,7 +223,7 @@ template <class Scalar, class Way>
 RegionPlace<Scalar> cross(const RegionScene<Scalar>& regions, const Way& way, const Leg<Scalar>& leg,
                           QueryCounters& counters) {
     Path path;
-    if (leg.face == no_face || !set_path(regions.scene, way, std::numeric_limits<double>::infinity(), path))
+    if (!set_path(regions.scene, way, std::numeric_limits<double>::infinity(), path) || !is_crossed(regions, path, leg))
         return stop_at_end(regions, way, leg, counters);
     return PlaceBy<Scalar>(regions, path, leg, counters).beyond();
 }

@@ -6,11 +6,14 @@
 
 namespace pierce::detail {
 
+/// No triangle: a record has eight lanes at most.
+inline constexpr TriangleRef k_nowhere{0, 255};
+
 template <class Scalar>
 struct RegionScene {
     const Scene<Scalar>& scene;
     std::vector<FaceRegions> labels;  ///< of the caller's faces
-    RawArray<TriangleRef> where;      ///< of each triangle; not set for those of area zero
+    RawArray<TriangleRef> where;      ///< of each triangle; `k_nowhere` for those of area zero
     std::uint32_t outside = 0;
 
     /// On the side that a path comes from which crosses the triangle with this sign (crossing.h).

@@ -26,6 +26,7 @@ Regions<Scalar>::Regions(const CollisionMesh<Scalar>& mesh, std::span<const Face
     const Scene<Scalar>& scene = mesh.impl_->scene;
     RawArray<TriangleRef>& where = impl_->scene.where;
     where = RawArray<TriangleRef>(scene.triangles.size());
+    std::fill(where.begin(), where.end(), k_nowhere);
     for (std::uint32_t number = 0; number < scene.triangles.size(); ++number)
         if (scene.face_of_number(number) >= labels.size())
             throw std::invalid_argument("labels: face " + std::to_string(scene.face_of_number(number)) +

@@ -234,7 +234,7 @@ TYPED_TEST(RayQueries, in_batches_have_the_bits_of_single_calls) {
         std::vector<int> crossings(rays.size(), 9);
         std::vector<std::size_t> offsets(rays.size() + 1);
         const std::uint64_t invalid = mesh.statistics().invalid_queries;
-        mesh.first_hits(of_array, hits, options, std::ref(threads));
+        mesh.first_hits(rays, hits, options, std::ref(threads));
         EXPECT_EQ(mesh.statistics().invalid_queries - invalid, 90U);
         mesh.first_hits(of_parts, plain, options);
         mesh.any_hits(of_parts, any, options, std::ref(threads));

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <pierce/pierce.h>
+#include <support/meshes.h>
 #include <support/region_models.h>
 #include <support/region_oracle.h>
 
@@ -154,8 +155,8 @@ TYPED_TEST_SUITE(RegionsTest, Scalars, );
 
 TYPED_TEST(RegionsTest, walk_as_the_judge_says) { EXPECT_GT(judge_many<TypeParam>(150, 5), 6000U); }
 
-// Two sheets meet in an edge, which a flight goes through at a fraction that lies in the middle between two floats: each
-// sheet's own arithmetic rounds it up or down as its errors go, so that one leg had a length that it has not.
+// Two sheets meet in an edge, which a flight goes through at a fraction that lies in the middle between two floats:
+// each sheet's own arithmetic rounds it up or down as its errors go, so that one leg had a length that it has not.
 TEST(RegionsFloat, give_equal_fractions_equal_bits) {
     Random random(6);
     const float k = 0x1p24F + 1236;  // every second whole number is a float here; k is one
@@ -265,6 +266,30 @@ TYPED_TEST(RegionsTest, say_where_labels_do_not_agree_on_the_way) {
     EXPECT_FALSE(legs[1].consistent);
     EXPECT_EQ(legs[1].region, region);  // as the face says that was crossed
     EXPECT_TRUE(legs[2].consistent);
+}
+
+// A leg of another flight, or kept while the mesh was built anew: its triangle was taken as it was, and read beyond the
+// mesh.
+TYPED_TEST(RegionsTest, take_legs_of_other_flights_and_meshes) {
+    TriangleSoup<TypeParam> soup = moved<TypeParam>(bumpy_sphere(4), 1, {0, 0, 0});
+    const auto flat = static_cast<std::uint32_t>(soup.triangles.size());
+    add_triangle(soup, Vec3<double>(2, 0, 0), Vec3<double>(3, 0, 0), Vec3<double>(4, 0, 0));
+    const CollisionMesh<TypeParam> mesh(soup.view());
+    const std::vector<FaceRegions> labels(soup.triangles.size(), {0, 1});
+    const Regions<TypeParam> regions(mesh, labels);
+    const Segment<TypeParam> flight{{0, 0, 0}, {2, TypeParam(0.125), TypeParam(0.25)}};
+    std::array<Leg<TypeParam>, 1> legs;
+    ASSERT_EQ(regions.walk(flight, legs), 1U);
+    ASSERT_EQ(legs[0].region, 1U);
+    ASSERT_EQ(regions.cross(flight, legs[0]).region, 0U);
+    for (const std::uint32_t triangle : {legs[0].triangle == 0 ? 1U : 0U, flat, flat + 1, no_face - 1, no_face}) {
+        Leg<TypeParam> leg = legs[0];
+        leg.triangle = triangle;
+        for (const RegionPlace<TypeParam>& place : {regions.cross(flight, leg), regions.stop(flight, leg)}) {
+            EXPECT_EQ(place.region, 1U) << triangle;
+            EXPECT_EQ(regions.region_at(place.point), 1U) << triangle;
+        }
+    }
 }
 
 TYPED_TEST(RegionsTest, take_any_input) {
