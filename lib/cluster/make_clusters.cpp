@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
+#include <string>
 
 #include <chunks.h>
 #include <cluster/morton_order.h>
 #include <cluster/write_cluster.h>
+#include <pierce/mesh_error.h>
 
 namespace pierce::detail {
 
@@ -51,16 +54,18 @@ Scalar unit_by_extent(const QuadBox<Scalar>& box) {
     return extent > 0 ? power_to_reach(-1, extent) : Scalar(1);
 }
 
-// A scene in a plane across an axis may be so small beside its distance from the origin that its coordinates would
-// overflow. There the unit is smaller: with the noise, which is a few units in the last place of the largest
-// coordinate, everything in such a scene is visited all the same.
+// A mesh in a plane across an axis may be so small beside its distance from the origin that its coordinates overflow in
+// this unit. (Where it has an extent along each axis that is at most 2^53 times as much.)
 template <class Scalar>
 Scalar unit_of(const QuadBox<Scalar>& box) {
     const Scalar unit = unit_by_extent(box);
     Scalar largest = 0;
     for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
-    if (!(largest >= 1)) return unit;
-    return std::min(unit, std::ldexp(Scalar(1), std::numeric_limits<Scalar>::max_exponent - 4 - std::ilogb(largest)));
+    constexpr int k_most = std::numeric_limits<Scalar>::max_exponent - 4;
+    if (largest >= 1 && std::ilogb(largest) + std::ilogb(unit) >= k_most)
+        throw MeshError("the mesh is too small for its distance from the origin: a coordinate is more than 2^" +
+                        std::to_string(k_most - 1) + " times its largest extent");
+    return unit;
 }
 
 template <class Scalar>
