@@ -136,7 +136,7 @@ ClusterBuild<Scalar> make_clusters(const PlainMesh<Scalar>& mesh, bool (*has_zer
         });
 
     const QuadBox<Scalar>& box = order.box;
-    const Scalar unit = unit_of(box);
+    const Scalar unit = unit_by_extent(box);
     const Scalar area = QuadBox<Scalar>{box.low * unit, box.high * unit}.area();
     const ClusterWriter<Scalar> writer(reader, entries, unit,
                                        static_cast<Scalar>(k_large / static_cast<double>(count)) * area, has_zero_area,

@@ -53,7 +53,7 @@ std::vector<Pair<Scalar>> pairs(const MeshView<Scalar>& mesh) {
 template <class Query>
 double nanoseconds(std::size_t& hits, Query&& query) {
     const auto start = std::chrono::steady_clock::now();
-    for (std::size_t i = 0; i < k_count; ++i) hits += query(i) ? 1 : 0;
+    for (std::size_t i = 0; i < k_count; ++i) hits += query(i) ? std::size_t{1} : std::size_t{0};
     const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
     return time.count() / k_count;
 }
