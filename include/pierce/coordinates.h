@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <iosfwd>
 
 #include <pierce/types.h>
 
@@ -67,8 +68,8 @@ struct Coordinates {
     friend Derived& operator-=(Eigen::MatrixBase<Derived>& v, const Coordinates& a) {
         return v -= a.vec();
     }
-    template <class Stream>
-    friend auto operator<<(Stream& out, const Coordinates& a) -> decltype(out << Scalar() << "") {
+    template <class Char, class Traits>
+    friend std::basic_ostream<Char, Traits>& operator<<(std::basic_ostream<Char, Traits>& out, const Coordinates& a) {
         return out << a.values[0] << ' ' << a.values[1] << ' ' << a.values[2];
     }
 };
