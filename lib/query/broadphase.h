@@ -36,6 +36,12 @@ template <class Scalar>
     return up_to >= 0;
 }
 
+/// Whether many queries can be in flight through a scene: not where there is no tree, or one too deep for that.
+template <class Scalar>
+[[nodiscard]] bool takes_flights(const Scene<Scalar>& scene) {
+    return !scene.empty() && scene.broadphase == Broadphase::tree && scene.tree.depth <= k_flight_depth;
+}
+
 /// Calls `use(cluster, lanes)`, as in each_candidate, for a cluster of which `lanes` are left. Returns the parameter up
 /// to which hits are of use, `limit` before; negative: none is any more.
 template <class Scalar, class Use>

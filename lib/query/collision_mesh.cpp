@@ -32,6 +32,40 @@ class Counters {
     QueryCounters& counters_;
 };
 
+// What is asked of segments and of rays, by the façade in standard arithmetic.
+
+template <class Scalar, class Impl, class Way>
+std::optional<Hit<Scalar>> first_along(const Impl& impl, const Way& way, const QueryOptions& options) {
+    const StandardArithmetic standard;
+    Counters counters(options.counters);
+    if (!impl.valid(way) || !(options.max_fraction >= 0)) return std::nullopt;
+    return detail::first_hit(impl.scene, way, options, counters);
+}
+
+template <class Impl, class Way>
+bool any_along(const Impl& impl, const Way& way, const QueryOptions& options) {
+    const StandardArithmetic standard;
+    Counters counters(options.counters);
+    if (!impl.valid(way) || !(options.max_fraction >= 0)) return false;
+    return detail::any_hit(impl.scene, way, options, counters);
+}
+
+template <class Scalar, class Impl, class Way>
+std::size_t all_along(const Impl& impl, const Way& way, std::span<Hit<Scalar>> out, const QueryOptions& options) {
+    const StandardArithmetic standard;
+    Counters counters(options.counters);
+    if (!impl.valid(way) || !(options.max_fraction >= 0)) return 0;
+    return detail::all_hits(impl.scene, way, out, options, counters);
+}
+
+template <class Impl, class Way>
+int crossings_along(const Impl& impl, const Way& way, QueryCounters* given) {
+    const StandardArithmetic standard;
+    Counters counters(given);
+    if (!impl.valid(way)) return 0;
+    return detail::crossings(impl.scene, way, counters);
+}
+
 }  // namespace
 
 // Never destroyed: meshes may be used, and moved from, until the very end of a program.
@@ -81,76 +115,52 @@ CollisionMesh<Scalar>& CollisionMesh<Scalar>::operator=(CollisionMesh&& other) n
 template <class Scalar>
 std::optional<Hit<Scalar>> CollisionMesh<Scalar>::first_hit(const Segment<Scalar>& segment,
                                                             const QueryOptions& options) const noexcept {
-    const StandardArithmetic standard;
-    Counters counters(options.counters);
-    if (!impl_->finite(segment.from, segment.to) || !(options.max_fraction >= 0)) return std::nullopt;
-    return detail::first_hit(impl_->scene, segment, options, counters);
+    return first_along<Scalar>(*impl_, segment, options);
 }
 
 template <class Scalar>
 bool CollisionMesh<Scalar>::any_hit(const Segment<Scalar>& segment, const QueryOptions& options) const noexcept {
-    const StandardArithmetic standard;
-    Counters counters(options.counters);
-    if (!impl_->finite(segment.from, segment.to) || !(options.max_fraction >= 0)) return false;
-    return detail::any_hit(impl_->scene, segment, options, counters);
+    return any_along(*impl_, segment, options);
 }
 
 template <class Scalar>
 std::size_t CollisionMesh<Scalar>::all_hits(const Segment<Scalar>& segment, std::span<Hit<Scalar>> out,
                                             const QueryOptions& options) const noexcept {
-    const StandardArithmetic standard;
-    Counters counters(options.counters);
-    if (!impl_->finite(segment.from, segment.to) || !(options.max_fraction >= 0)) return 0;
-    return detail::all_hits(impl_->scene, segment, out, options, counters);
+    return all_along(*impl_, segment, out, options);
 }
 
 template <class Scalar>
 int CollisionMesh<Scalar>::crossings(const Segment<Scalar>& segment, QueryCounters* given) const noexcept {
-    const StandardArithmetic standard;
-    Counters counters(given);
-    if (!impl_->finite(segment.from, segment.to)) return 0;
-    return detail::crossings(impl_->scene, segment, counters);
+    return crossings_along(*impl_, segment, given);
 }
 
 template <class Scalar>
 std::optional<Hit<Scalar>> CollisionMesh<Scalar>::first_hit_of_ray(const Ray<Scalar>& ray,
                                                                    const QueryOptions& options) const noexcept {
-    const StandardArithmetic standard;
-    Counters counters(options.counters);
-    if (!impl_->valid(ray) || !(options.max_fraction >= 0)) return std::nullopt;
-    return detail::first_hit(impl_->scene, ray, options, counters);
+    return first_along<Scalar>(*impl_, ray, options);
 }
 
 template <class Scalar>
 bool CollisionMesh<Scalar>::any_hit_of_ray(const Ray<Scalar>& ray, const QueryOptions& options) const noexcept {
-    const StandardArithmetic standard;
-    Counters counters(options.counters);
-    if (!impl_->valid(ray) || !(options.max_fraction >= 0)) return false;
-    return detail::any_hit(impl_->scene, ray, options, counters);
+    return any_along(*impl_, ray, options);
 }
 
 template <class Scalar>
 std::size_t CollisionMesh<Scalar>::all_hits_of_ray(const Ray<Scalar>& ray, std::span<Hit<Scalar>> out,
                                                    const QueryOptions& options) const noexcept {
-    const StandardArithmetic standard;
-    Counters counters(options.counters);
-    if (!impl_->valid(ray) || !(options.max_fraction >= 0)) return 0;
-    return detail::all_hits(impl_->scene, ray, out, options, counters);
+    return all_along(*impl_, ray, out, options);
 }
 
 template <class Scalar>
 int CollisionMesh<Scalar>::crossings_of_ray(const Ray<Scalar>& ray, QueryCounters* given) const noexcept {
-    const StandardArithmetic standard;
-    Counters counters(given);
-    if (!impl_->valid(ray)) return 0;
-    return detail::crossings(impl_->scene, ray, counters);
+    return crossings_along(*impl_, ray, given);
 }
 
 template <class Scalar>
 int CollisionMesh<Scalar>::winding_number(const Vec3<Scalar>& point, QueryCounters* given) const noexcept {
     const StandardArithmetic standard;
     Counters counters(given);
-    if (!impl_->finite(point)) return 0;
+    if (!impl_->valid(point)) return 0;
     return detail::winding_number(impl_->scene, point, counters);
 }
 
@@ -164,7 +174,7 @@ std::size_t CollisionMesh<Scalar>::passages(const Segment<Scalar>& segment, std:
                                             const PassageOptions& options, std::span<FaceTouch> faces) const noexcept {
     const StandardArithmetic standard;
     Counters counters(options.counters);
-    if (!impl_->finite(segment.from, segment.to) || !(options.max_fraction >= 0)) return 0;
+    if (!impl_->valid(segment) || !(options.max_fraction >= 0)) return 0;
     return detail::passages(impl_->scene, segment, out, faces, options, counters);
 }
 
@@ -173,7 +183,7 @@ Location CollisionMesh<Scalar>::locate(const Vec3<Scalar>& point, std::span<Face
                                        QueryCounters* given) const noexcept {
     const StandardArithmetic standard;
     Counters counters(given);
-    if (!impl_->finite(point)) return {};
+    if (!impl_->valid(point)) return {};
     return detail::locate(impl_->scene, point, faces, counters);
 }
 
@@ -182,7 +192,7 @@ std::vector<FaceVerdict> CollisionMesh<Scalar>::explain(const Segment<Scalar>& s
                                                         const QueryOptions& options) const {
     const StandardArithmetic standard;
     Counters counters(options.counters);
-    if (!impl_->finite(segment.from, segment.to)) return {};
+    if (!impl_->valid(segment)) return {};
     return detail::explain(impl_->scene, segment, options, counters);
 }
 

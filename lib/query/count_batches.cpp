@@ -10,22 +10,15 @@ namespace {
 /// Segments or rays, whose sums are the answers.
 template <class Scalar>
 struct Sums {
-    struct Query {
-        Path path;
-        std::size_t i;
-        int sum;
-    };
-
     const Scene<Scalar>& scene;
     const Ways<Scalar>& ways;
     std::size_t at;
     std::size_t last;
     int* out;
     std::size_t& invalid;
-    QueryCounters& counters;
     std::size_t count = 0;
 
-    bool next(Query& query) {
+    bool next(CountedQuery& query) {
         for (; at < last; ++at) {
             out[at] = 0;
             if (!ways.is_valid(at)) {
@@ -39,10 +32,7 @@ struct Sums {
         }
         return false;
     }
-    void visit(Query& query, ClusterRef cluster, unsigned lanes) {
-        query.sum += crossings_in(scene, query.path, cluster, lanes, counters);
-    }
-    void finish(Query& query) {
+    void finish(const CountedQuery& query) {
         out[query.i] = query.sum;
         count += query.sum != 0 ? 1 : 0;
     }
@@ -53,7 +43,7 @@ struct Sums {
 template <class Scalar>
 std::size_t crossings(const Scene<Scalar>& scene, const Ways<Scalar>& ways, std::size_t first, std::size_t last,
                       int* out, QueryCounters& counters, std::size_t& invalid) {
-    Sums<Scalar> sums{scene, ways, first, last, out, invalid, counters};
+    Sums<Scalar> sums{scene, ways, first, last, out, invalid};
     fly_and_count(scene, sums, counters);
     return sums.count;
 }

@@ -13,8 +13,18 @@
 
 namespace pierce::detail {
 
-/// The crossings of those of a cluster's triangles that are in `lanes`. The move is infinitesimal: a path that does not
-/// even touch a closed triangle does not cross it when moved either.
+/// How a path crosses a triangle (crossing.h) of which the filter says `filtered`, strictly and for both sides. The move
+/// is infinitesimal: a path that does not even touch a closed triangle does not cross it when moved either.
+[[nodiscard]] inline int sign_of_crossing(const Filtered& filtered, const Path& path, const Corners& corners,
+                                          QueryCounters& counters) {
+    if (filtered.verdict == Verdict::miss) return 0;
+    if (filtered.verdict == Verdict::hit && filtered.latest < path.end)
+        return filtered.decision.side == Sides::front ? 1 : -1;
+    ++counters.exact_decisions;
+    return crossing(path, corners);
+}
+
+/// The crossings of those of a cluster's triangles that are in `lanes`.
 template <class Scalar>
 [[nodiscard]] int crossings_in(const Scene<Scalar>& scene, const Path& path, ClusterRef cluster, unsigned lanes,
                                QueryCounters& counters) {
@@ -23,13 +33,7 @@ template <class Scalar>
         const Corners corners = scene.corners({cluster, static_cast<std::uint32_t>(std::countr_zero(lanes))});
         Measured measured;
         measure_path<Scalar>(corners, path, measured);
-        const Filtered filtered = filter_strictly(measured, Sides::both);
-        if (filtered.verdict == Verdict::hit && filtered.latest < path.end) {
-            sum += filtered.decision.side == Sides::front ? 1 : -1;
-        } else if (filtered.verdict != Verdict::miss) {
-            ++counters.exact_decisions;
-            sum += crossing(path, corners);
-        }
+        sum += sign_of_crossing(filter_strictly(measured, Sides::both), path, corners, counters);
     }
     return sum;
 }

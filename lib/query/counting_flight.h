@@ -5,11 +5,16 @@
 
 namespace pierce::detail {
 
+/// A question under way: number `i` of its batch, and the crossings so far.
+struct CountedQuery {
+    Path path;
+    std::size_t i;
+    int sum;
+};
+
 /// `Questions` has what is asked:
-///   Query                                a question's state in flight, with its `path`
-///   bool next(Query& query)              the next one; false: there is none
-///   void visit(query, cluster, lanes)    triangles that may be met
-///   void finish(query)                   writes the answer
+///   bool next(CountedQuery& query)          begins the next one; false: there is none
+///   void finish(const CountedQuery& query)   writes the answer
 template <class Scalar, class Questions>
 class CountingFlight {
   public:
@@ -31,7 +36,7 @@ class CountingFlight {
 
   private:
     struct Slot {
-        typename Questions::Query query;
+        CountedQuery query;
         const Probe<Scalar>* probe;
         float limit;
     };
@@ -52,7 +57,7 @@ class CountingFlight {
         Slot& slot = slots_[at];
         return use_cluster(scene_, *slot.probe, cluster, lanes, slot.limit, counters_,
                            [&](ClusterRef which, unsigned bits) {
-                               questions_.visit(slot.query, which, bits);
+                               slot.query.sum += crossings_in(scene_, slot.query.path, which, bits, counters_);
                                return 1.0;
                            });
     }
@@ -72,12 +77,11 @@ class CountingFlight {
 /// One after the other where there is no tree, or one too deep for queries in flight.
 template <class Scalar, class Questions>
 void fly_and_count(const Scene<Scalar>& scene, Questions& questions, QueryCounters& counters) {
-    if (!scene.empty() && scene.broadphase == Broadphase::tree && scene.tree.depth <= k_flight_depth)
-        return CountingFlight<Scalar, Questions>(scene, questions, counters).run();
-    typename Questions::Query query;
+    if (takes_flights(scene)) return CountingFlight<Scalar, Questions>(scene, questions, counters).run();
+    CountedQuery query;
     while (questions.next(query)) {
         each_candidate(scene, query.path, Sides::both, 1, counters, [&](ClusterRef cluster, unsigned lanes) {
-            questions.visit(query, cluster, lanes);
+            query.sum += crossings_in(scene, query.path, cluster, lanes, counters);
             return 1.0;
         });
         questions.finish(query);

@@ -153,9 +153,7 @@ class InFlight {
 
 template <class Query, class Scalar>
 std::size_t run(Batch<Scalar> batch, const typename Query::Sink& sink) {
-    const bool flies =
-        !batch.scene.empty() && batch.scene.broadphase == Broadphase::tree && batch.scene.tree.depth <= k_flight_depth;
-    if (flies)
+    if (takes_flights(batch.scene))
         InFlight<Query, Scalar>(batch, sink).run();
     else
         one_by_one<Query>(batch, sink);

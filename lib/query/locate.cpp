@@ -73,7 +73,7 @@ std::size_t locate(const Scene<Scalar>& scene, const PointsView<Scalar>& points,
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         out[i] = {};
-        if (!is_finite<Scalar>(points[i])) {
+        if (!are_finite(points[i])) {
             ++invalid;
             continue;
         }

@@ -11,24 +11,17 @@ namespace {
 
 template <class Scalar, class Out>
 struct PointWays {
-    struct Query {
-        Path path;
-        std::size_t i;
-        int sum;
-    };
-
     const Scene<Scalar>& scene;
     const PointsView<Scalar>& points;
     const std::uint64_t* entries;  ///< null: in the order given
     std::size_t next_one;
     std::size_t last;
     Out* out;
-    QueryCounters& counters;
     std::size_t& invalid;
     OutTargets targets;
     std::size_t count = 0;
 
-    bool next(Query& query) {
+    bool next(CountedQuery& query) {
         while (next_one < last) {
             const std::size_t i = number_of(next_one);
             if (entries != nullptr && last - next_one > k_ahead) {
@@ -40,7 +33,7 @@ struct PointWays {
             ++next_one;
             out[i] = 0;
             const Point point = to_point(points[i]);
-            if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2])) {
+            if (!are_finite(point)) {
                 ++invalid;
                 continue;
             }
@@ -55,10 +48,7 @@ struct PointWays {
     [[nodiscard]] std::size_t number_of(std::size_t place) const {
         return entries != nullptr ? static_cast<std::uint32_t>(entries[place]) : place;
     }
-    void visit(Query& query, ClusterRef cluster, unsigned lanes) {
-        query.sum += crossings_in(scene, query.path, cluster, lanes, counters);
-    }
-    void finish(const Query& query) {
+    void finish(const CountedQuery& query) {
         out[query.i] = static_cast<Out>(sizeof(Out) == 1 ? query.sum != 0 : -query.sum);
         count += query.sum != 0 ? 1 : 0;
     }
@@ -115,7 +105,7 @@ template <class Scalar, class Out>
 std::size_t winding_numbers(const Scene<Scalar>& scene, const PointsView<Scalar>& points, const std::uint64_t* entries,
                             std::size_t first, std::size_t last, Out* out, QueryCounters& counters,
                             std::size_t& invalid) {
-    PointWays<Scalar, Out> ways{scene, points, entries, first, last, out, counters, invalid, OutTargets(scene.bounds)};
+    PointWays<Scalar, Out> ways{scene, points, entries, first, last, out, invalid, OutTargets(scene.bounds)};
     fly_and_count(scene, ways, counters);
     return ways.count;
 }

@@ -3,12 +3,9 @@
 
 #include <bit>
 
-#include <exact/crossing.h>
 #include <exact/crossing_order.h>
-#include <exact/fraction.h>
-#include <kernel/filter.h>
-#include <pierce/options.h>
-#include <query/broadphase.h>
+#include <query/certified.h>
+#include <query/counting.h>
 #include <query/region_scene.h>
 
 namespace pierce::detail {
@@ -27,20 +24,12 @@ template <class Scalar>
     const Corners corners = scene.corners(triangle);
     Measured measured;
     measure_path<Scalar>(corners, path, measured);
-    const Filtered filtered = filter_strictly(measured, Sides::both);
+    Filtered filtered = filter_strictly(measured, Sides::both);
     if (filtered.verdict == Verdict::miss || filtered.earliest > limit) return false;
-    found = {triangle, filtered.decision.side == Sides::front ? 1 : -1, filtered.earliest, filtered.latest};
-    if (filtered.verdict == Verdict::hit && filtered.latest < path.end) return true;
-    ++counters.exact_decisions;
-    found.sign = crossing(path, corners);
-    if (found.sign == 0) return false;
-    if (filtered.latest - filtered.earliest > 0x1p-20) {
-        ++counters.exact_values;
-        const double fraction = measure(path, corners).fraction;
-        const double slack = fraction * 0x1p-52 + 0x1p-1072;
-        found.earliest = fraction - slack;
-        found.latest = fraction + slack;
-    }
+    const int sign = sign_of_crossing(filtered, path, corners, counters);
+    if (sign == 0) return false;
+    if (filtered.verdict == Verdict::doubtful) set_exact_interval(path, corners, counters, filtered);
+    found = {triangle, sign, filtered.earliest, filtered.latest};
     return found.earliest <= limit;
 }
 

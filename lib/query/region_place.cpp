@@ -11,14 +11,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include <exact/crossing.h>
 #include <query/grain.h>
+#include <query/region_order.h>
 #include <query/values.h>
 #include <query/ways.h>
 
 namespace pierce::detail {
 
 namespace {
+
+template <class Scalar>
+[[nodiscard]] RegionPlace<Scalar> place(const Point& point, std::uint32_t region, bool reached) {
+    RegionPlace<Scalar> out;
+    for (std::size_t k = 0; k < 3; ++k) out.point[static_cast<int>(k)] = static_cast<Scalar>(point[k]);
+    out.region = region;
+    out.reached = reached;
+    return out;
+}
 
 template <class Scalar>
 class PlaceBy {
@@ -41,26 +50,26 @@ class PlaceBy {
     [[nodiscard]] RegionPlace<Scalar> before() {
         const auto is_clear = [this](const Point& point) { return look(point).count == 1; };
         for (const double grains : {1.0, 2.0, 4.0, 8.0})
-            if (const Point point = off(grains); is_clear(point)) return place(point, leg_.region, true);
+            if (const Point point = off(grains); is_clear(point)) return place<Scalar>(point, leg_.region, true);
         for (double back = 0x1p-50; back < 1; back *= 2) {
             Point point{};
             for (std::size_t k = 0; k < 3; ++k) point[k] = path_.from[k] * back + true_point_[k] * (1 - back);
             point = rounded_to<Scalar>(point);
-            if (is_clear(point)) return place(point, leg_.region, true);
+            if (is_clear(point)) return place<Scalar>(point, leg_.region, true);
         }
-        return place(path_.from, leg_.region, true);
+        return place<Scalar>(path_.from, leg_.region, true);
     }
 
     [[nodiscard]] RegionPlace<Scalar> beyond() {
         for (const double grains : {-1.0, -2.0, -4.0, -8.0}) {
             const Point point = off(grains);
-            if (is_next(look(point))) return place(point, leg_.next, true);
+            if (is_next(look(point))) return place<Scalar>(point, leg_.next, true);
         }
         RegionPlace<Scalar> found;
         if (find_along(found)) return found;
         for (const Point& point : {off(-1), rounded_to<Scalar>(true_point_)})
-            if (const Look seen = look(point); seen.known) return place(point, seen.region, false);
-        return place(path_.from, leg_.region, false);
+            if (const Look seen = look(point); seen.known) return place<Scalar>(point, seen.region, false);
+        return place<Scalar>(path_.from, leg_.region, false);
     }
 
   private:
@@ -126,7 +135,7 @@ class PlaceBy {
                 point = rounded_to<Scalar>(point);
                 const Look seen = look(point);
                 if (i == 1 ? is_next(seen) : seen.known && seen.region == legs[i].region) {
-                    found = place(point, seen.region, i == 1);
+                    found = place<Scalar>(point, seen.region, i == 1);
                     return true;
                 }
                 if (by < step) break;
@@ -136,14 +145,6 @@ class PlaceBy {
     }
     [[nodiscard]] double fraction_at(const Leg<Scalar>& leg) const {
         return measure(path_, regions_.scene.corners(regions_.where[leg.triangle])).fraction;
-    }
-
-    [[nodiscard]] RegionPlace<Scalar> place(const Point& point, std::uint32_t region, bool reached) const {
-        RegionPlace<Scalar> out;
-        for (std::size_t k = 0; k < 3; ++k) out.point[static_cast<int>(k)] = static_cast<Scalar>(point[k]);
-        out.region = region;
-        out.reached = reached;
-        return out;
     }
 
     const RegionScene<Scalar>& regions_;
@@ -177,13 +178,6 @@ template <class Scalar, class Way>
                                               const Leg<Scalar>& leg, QueryCounters& counters) {
     const Point from = start_of(way);
     const Point end = end_point(way);
-    const auto place = [&](const Point& point) {
-        RegionPlace<Scalar> out;
-        for (std::size_t k = 0; k < 3; ++k) out.point[static_cast<int>(k)] = static_cast<Scalar>(point[k]);
-        out.region = leg.region;
-        out.reached = true;
-        return out;
-    };
     for (double back = 0; back < 1; back = back == 0 ? 0x1p-50 : 2 * back) {
         Point point = end;
         for (std::size_t k = 0; k < 3; ++k)
@@ -192,20 +186,22 @@ template <class Scalar, class Way>
         if (!std::isfinite(point[0] + point[1] + point[2])) continue;
         std::array<Leg<Scalar>, 1> legs;
         find_legs(regions, Path{from, point}, std::span<Leg<Scalar>>(legs), counters);
-        if (legs[0].face == no_face) return place(point);
+        if (legs[0].face == no_face) return place<Scalar>(point, leg.region, true);
     }
-    return place(from);
+    return place<Scalar>(from, leg.region, true);
 }
 
-/// Whether the flight crosses the face at the end of a leg: not if the leg is of another flight or another mesh.
-template <class Scalar>
-bool is_crossed(const RegionScene<Scalar>& regions, const Path& path, const Leg<Scalar>& leg) {
+/// Sets the path of a flight, and says whether it crosses the face at the end of a leg: not if the leg has none, or is of
+/// another flight or another mesh.
+template <class Scalar, class Way>
+[[nodiscard]] bool leads_to_face(const RegionScene<Scalar>& regions, const Way& way, const Leg<Scalar>& leg,
+                                 QueryCounters& counters, Path& path) {
+    constexpr double k_infinite = std::numeric_limits<double>::infinity();
     if (leg.face == no_face || leg.triangle >= regions.where.size()) return false;
-    if (regions.where[leg.triangle] == k_nowhere) return false;
-    const Corners corners = regions.scene.corners(regions.where[leg.triangle]);
-    Measured measured;
-    measure_path<Scalar>(corners, path, measured);
-    return filter_strictly(measured, Sides::both).verdict == Verdict::hit || crossing(path, corners) != 0;
+    const TriangleRef triangle = regions.where[leg.triangle];
+    Crossing unused;
+    return triangle != k_nowhere && set_path(regions.scene, way, k_infinite, path) &&
+           find_crossing(regions.scene, path, triangle, k_infinite, counters, unused);
 }
 
 }  // namespace
@@ -214,8 +210,7 @@ template <class Scalar, class Way>
 RegionPlace<Scalar> stop(const RegionScene<Scalar>& regions, const Way& way, const Leg<Scalar>& leg,
                          QueryCounters& counters) {
     Path path;
-    if (!set_path(regions.scene, way, std::numeric_limits<double>::infinity(), path) || !is_crossed(regions, path, leg))
-        return stop_at_end(regions, way, leg, counters);
+    if (!leads_to_face(regions, way, leg, counters, path)) return stop_at_end(regions, way, leg, counters);
     return PlaceBy<Scalar>(regions, path, leg, counters).before();
 }
 
@@ -223,8 +218,7 @@ template <class Scalar, class Way>
 RegionPlace<Scalar> cross(const RegionScene<Scalar>& regions, const Way& way, const Leg<Scalar>& leg,
                           QueryCounters& counters) {
     Path path;
-    if (!set_path(regions.scene, way, std::numeric_limits<double>::infinity(), path) || !is_crossed(regions, path, leg))
-        return stop_at_end(regions, way, leg, counters);
+    if (!leads_to_face(regions, way, leg, counters, path)) return stop_at_end(regions, way, leg, counters);
     return PlaceBy<Scalar>(regions, path, leg, counters).beyond();
 }
 

@@ -168,6 +168,15 @@ void set_values(const RegionScene<Scalar>& regions, const Path& path, std::span<
     }
 }
 
+/// A leg without a face. Its parameters are set_values()' task.
+template <class Scalar>
+void end_with(std::uint32_t region, Leg<Scalar>& leg) {
+    leg.region = leg.next = region;
+    leg.face = leg.triangle = no_face;
+    leg.side = Sides::front;
+    leg.consistent = true;
+}
+
 template <class Scalar>
 [[nodiscard]] Scalar end_of(const Segment<Scalar>&) {
     return 1;
@@ -177,7 +186,7 @@ template <class Scalar>
     return ray.limit;
 }
 
-/// Out of the box through the side that is nearest, tilted as in winding numbers (engine.cpp), by numbers of few bits.
+/// Out of the box through the side that is nearest, tilted as in winding numbers (counting.h), by numbers of few bits.
 [[nodiscard]] Point direction_out(const Point& point, const Box& box) {
     std::size_t axis = 0;
     bool up = true;
@@ -229,21 +238,14 @@ std::size_t find_legs(const RegionScene<Scalar>& regions, const Path& path, std:
         leg.face = scene.face_of_number(leg.triangle);
     }
     if (count == out.size()) return count;
-    Leg<Scalar>& last = out[count];
-    last.region = last.next = count > 0 ? out[count - 1].next : Regions<Scalar>::no_region;
-    last.face = last.triangle = no_face;
-    last.side = Sides::front;
-    last.consistent = true;
+    end_with(count > 0 ? out[count - 1].next : Regions<Scalar>::no_region, out[count]);
     return count + 1;
 }
 
 template <class Scalar>
 std::uint32_t region_at(const RegionScene<Scalar>& regions, const Point& point, QueryCounters& counters) {
     const Box& box = regions.scene.bounds;
-    if (regions.scene.empty()) return regions.outside;
-    // As in winding_number.
-    for (std::size_t k = 0; k < 3; ++k)
-        if (point[k] >= box.high[k] || point[k] < box.low[k]) return regions.outside;
+    if (is_clearly_outside(regions.scene, point)) return regions.outside;
     Path path;
     constexpr double k_infinite = std::numeric_limits<double>::infinity();
     if (!set_ray_path(box, point, direction_out(point, box), k_infinite, k_infinite, sizeof(Scalar) == sizeof(float),
@@ -263,11 +265,7 @@ std::size_t walk(const RegionScene<Scalar>& regions, const Way& way, std::span<L
     if (!regions.scene.empty() && set_path(regions.scene, way, std::numeric_limits<double>::infinity(), path)) {
         count = find_legs(regions, path, out, counters);
     } else {
-        out[0] = {};
-        out[0].face = out[0].triangle = no_face;
-        out[0].side = Sides::front;
-        out[0].consistent = true;
-        out[0].region = Regions<Scalar>::no_region;
+        end_with(Regions<Scalar>::no_region, out[0]);
     }
     if (count == 1 && out[0].face == no_face) out[0].region = out[0].next = region_at(regions, start_of(way), counters);
     set_values(regions, path, out.first(count), end_of(way), counters);

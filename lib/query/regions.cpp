@@ -45,7 +45,7 @@ template <class Scalar>
 std::uint32_t Regions<Scalar>::region_at(const Vec3<Scalar>& point) const noexcept {
     const StandardArithmetic standard;
     QueryCounters counters;
-    if (!impl_->mesh.finite(point)) return impl_->scene.outside;
+    if (!impl_->mesh.valid(point)) return impl_->scene.outside;
     return detail::region_at(impl_->scene, to_point(point), counters);
 }
 
@@ -53,7 +53,7 @@ template <class Scalar>
 std::size_t Regions<Scalar>::walk(const Segment<Scalar>& flight, std::span<Leg<Scalar>> out) const noexcept {
     const StandardArithmetic standard;
     QueryCounters counters;
-    if (!impl_->mesh.finite(flight.from, flight.to)) return 0;
+    if (!impl_->mesh.valid(flight)) return 0;
     return detail::walk(impl_->scene, flight, out, counters);
 }
 
@@ -69,7 +69,7 @@ template <class Scalar>
 RegionPlace<Scalar> Regions<Scalar>::stop(const Segment<Scalar>& flight, const Leg<Scalar>& first) const noexcept {
     const StandardArithmetic standard;
     QueryCounters counters;
-    if (!impl_->mesh.finite(flight.from, flight.to)) return {flight.from, first.region, false};
+    if (!impl_->mesh.valid(flight)) return {flight.from, first.region, false};
     return detail::stop(impl_->scene, flight, first, counters);
 }
 
@@ -85,7 +85,7 @@ template <class Scalar>
 RegionPlace<Scalar> Regions<Scalar>::cross(const Segment<Scalar>& flight, const Leg<Scalar>& first) const noexcept {
     const StandardArithmetic standard;
     QueryCounters counters;
-    if (!impl_->mesh.finite(flight.from, flight.to)) return {flight.from, first.region, false};
+    if (!impl_->mesh.valid(flight)) return {flight.from, first.region, false};
     return detail::cross(impl_->scene, flight, first, counters);
 }
 

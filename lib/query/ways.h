@@ -1,8 +1,6 @@
 // What queries go along, as paths: a segment, a ray, or the segments or rays of a batch.
 #pragma once
 
-#include <cmath>
-
 #include <pierce/batch.h>
 #include <pierce/ray.h>
 #include <point.h>
@@ -22,6 +20,13 @@ template <class Scalar>
                         most, sizeof(Scalar) == sizeof(float), path);
 }
 
+/// x - x is 0 for a number and NaN for what is none; one branch for all of them.
+template <class... Points>
+[[nodiscard]] bool are_finite(const Points&... points) {
+    const auto zero = [](const auto& p) { return (p[0] - p[0]) + (p[1] - p[1]) + (p[2] - p[2]); };
+    return (zero(points) + ...) == 0;
+}
+
 /// Where a query starts.
 template <class Scalar>
 [[nodiscard]] Point start_of(const Segment<Scalar>& segment) {
@@ -32,17 +37,18 @@ template <class Scalar>
     return to_point(ray.origin);
 }
 
+/// Whether what is asked about has a meaning: a point, a segment or a ray.
 template <class Scalar>
-[[nodiscard]] bool is_finite(const Vec3<Scalar>& x) {
-    return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+[[nodiscard]] bool is_valid(const Vec3<Scalar>& point) {
+    return are_finite(point);
 }
 template <class Scalar>
 [[nodiscard]] bool is_valid(const Segment<Scalar>& segment) {
-    return is_finite<Scalar>(segment.from) && is_finite<Scalar>(segment.to);
+    return are_finite(segment.from, segment.to);
 }
 template <class Scalar>
 [[nodiscard]] bool is_valid(const Ray<Scalar>& ray) {
-    return is_finite<Scalar>(ray.origin) && is_finite<Scalar>(ray.direction) && ray.limit >= 0;
+    return are_finite(ray.origin, ray.direction) && ray.limit >= 0;
 }
 
 /// Those of a batch; refers to the view that it is made from.

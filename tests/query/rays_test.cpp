@@ -11,6 +11,7 @@
 #include <support/meshes.h>
 #include <support/random.h>
 #include <support/ray_oracle.h>
+#include <support/within_an_ulp.h>
 
 namespace pierce::test {
 namespace {
@@ -118,14 +119,6 @@ TriangleSoup<Scalar> handful(double size, Random& random) {
     };
     for (int i = 0; i < 12; ++i) add_triangle(soup, some(), some(), some());
     return soup;
-}
-
-template <class Scalar>
-bool within_an_ulp(Scalar value, const mpq_class& exact) {
-    if (value == std::numeric_limits<Scalar>::max()) return exact >= static_cast<double>(value);
-    const auto next = [&](Scalar to) { return mpq_class(static_cast<double>(std::nextafter(value, to))); };
-    if (next(0) <= exact && (std::isinf(std::nextafter(value, INFINITY)) || exact <= next(INFINITY))) return true;
-    return value == 0 && exact <= static_cast<double>(std::numeric_limits<Scalar>::denorm_min());
 }
 
 /// Returns the number of decisions; what is wrong is a failure.
@@ -270,7 +263,9 @@ template <class Scalar>
 class RayQueriesSoak : public ::testing::Test {};
 TYPED_TEST_SUITE(RayQueriesSoak, Scalars, );
 
-TYPED_TEST(RayQueriesSoak, ten_million_decisions) { EXPECT_GE(judge<TypeParam>(10000, 50, 92), std::size_t{5'000'000}); }
+TYPED_TEST(RayQueriesSoak, ten_million_decisions) {
+    EXPECT_GE(judge<TypeParam>(10000, 50, 92), std::size_t{5'000'000});
+}
 
 }  // namespace
 }  // namespace pierce::test

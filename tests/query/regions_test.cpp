@@ -5,20 +5,13 @@
 #include <support/meshes.h>
 #include <support/region_models.h>
 #include <support/region_oracle.h>
+#include <support/within_an_ulp.h>
 
 namespace pierce::test {
 namespace {
 
 template <class Scalar>
 using V = Vec3<Scalar>;
-
-template <class Scalar>
-bool within_an_ulp(Scalar value, const mpq_class& exact) {
-    if (value == std::numeric_limits<Scalar>::max()) return exact >= static_cast<double>(value);
-    const auto next = [&](Scalar to) { return mpq_class(static_cast<double>(std::nextafter(value, to))); };
-    if (next(0) <= exact && (std::isinf(std::nextafter(value, INFINITY)) || exact <= next(INFINITY))) return true;
-    return value == 0 && exact <= static_cast<double>(std::numeric_limits<Scalar>::denorm_min());
-}
 
 /// All legs are as the judge says. Returns how many.
 template <class Scalar, class Way>
@@ -266,6 +259,25 @@ TYPED_TEST(RegionsTest, say_where_labels_do_not_agree_on_the_way) {
     EXPECT_FALSE(legs[1].consistent);
     EXPECT_EQ(legs[1].region, region);  // as the face says that was crossed
     EXPECT_TRUE(legs[2].consistent);
+}
+
+// A leg of a longer ray along the same way: the face lies beyond the end, which only the ray's limit says. A particle
+// that collided before it went through the wall.
+TYPED_TEST(RegionsTest, take_legs_of_longer_rays) {
+    const TriangleSoup<TypeParam> soup = moved<TypeParam>(bumpy_sphere(4), 1, {0, 0, 0});
+    const CollisionMesh<TypeParam> mesh(soup.view());
+    const std::vector<FaceRegions> labels(soup.triangles.size(), {0, 1});
+    const Regions<TypeParam> regions(mesh, labels);
+    Ray<TypeParam> ray{{0, 0, 0}, {1, TypeParam(0.125), TypeParam(0.25)}};
+    std::array<Leg<TypeParam>, 1> legs;
+    ASSERT_EQ(regions.walk(ray, legs), 1U);
+    ASSERT_GT(legs[0].exit, TypeParam(0.75));
+    ASSERT_EQ(regions.cross(ray, legs[0]).region, 0U);
+    ray.limit = TypeParam(0.75);
+    for (const RegionPlace<TypeParam>& place : {regions.cross(ray, legs[0]), regions.stop(ray, legs[0])}) {
+        EXPECT_EQ(place.region, 1U);
+        EXPECT_EQ(place.point, Vec3<TypeParam>(ray.limit * ray.direction));
+    }
 }
 
 // A leg of another flight, or kept while the mesh was built anew: its triangle was taken as it was, and read beyond the
