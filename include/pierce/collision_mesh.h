@@ -57,9 +57,9 @@ class PIERCE_EXPORT CollisionMesh {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
 
   public:
-    /// Throws `MeshError` where an index is out of range or a coordinate not finite, naming it; for more than
-    /// 2^32 - 2 vertices or 2^28 - 1 triangles; and for a flat mesh that is 2^122 (double: 2^1018) of its sizes from the
-    /// origin. std::invalid_argument: an option has no meaning. A mesh without triangles is fine, and is never hit.
+    /// Throws `MeshError` where an index is out of range or a coordinate not finite, naming it; for more than 2^32 - 2
+    /// vertices or 2^28 - 1 triangles; and for a flat mesh that is 2^122 (double: 2^1018) of its sizes from the origin.
+    /// std::invalid_argument: an option has no meaning. A mesh without triangles is fine, and is never hit.
     explicit CollisionMesh(const MeshView<Scalar>& mesh, const BuildOptions& options = {});
     /// The same without exceptions: an empty mesh, a status and the exception's text where the constructor throws.
     [[nodiscard]] static Result<CollisionMesh> try_make(const MeshView<Scalar>& mesh,

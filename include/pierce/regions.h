@@ -60,7 +60,8 @@ struct RegionPlace {
 ///     Leg<double> leg;
 ///     regions.walk(ray, {&leg, 1});                        // leg.region == region
 ///     const bool collides = leg.face == no_face;
-///     const RegionPlace<double> place = collides || is_mirror(leg.face) ? regions.stop(ray, leg) : regions.cross(ray, leg);
+///     const bool stays = collides || is_mirror(leg.face);
+///     const RegionPlace<double> place = stays ? regions.stop(ray, leg) : regions.cross(ray, leg);
 ///     point = place.point;
 ///     region = place.region;
 ///

@@ -1,4 +1,5 @@
-// Which side of a triangle counts, and what a hit lies on. Alone in a file: wide kernels include nothing else from here.
+// Which side of a triangle counts, and what a hit lies on. Alone in a file: wide kernels include nothing else from
+// here.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +10,8 @@ namespace pierce {
 ///
 /// `front`: from in front of the plane or on it, to strictly behind. `back` is the same mirrored: from behind or on the
 /// plane, to strictly in front. `both` is a change of side, where on the plane counts as in front: as `front`, or from
-/// strictly behind to in front or onto the plane. So a point on the plane can leave it to the front, and a chain of steps
-/// passes unseen in neither direction.
+/// strictly behind to in front or onto the plane. So a point on the plane can leave it to the front, and a chain of
+/// steps passes unseen in neither direction.
 enum class Sides : std::uint8_t { front, back, both };
 
 /// What a hit lies on, decided exactly: the open face, an open edge, or a corner.

@@ -61,8 +61,8 @@ void traverse_grid(const Scene<Scalar>& scene, const ScalarKernels<Scalar>& kern
                    float first_limit, Visit visit, void* self) {
     const Scalar* records = scene.clusters.records.data();
     std::uint64_t cells = 0;
-    // An infinite noise, or NaN in the probe, means all cells. So does one beside which the scene is nothing: differences
-    // of what is so far away say nothing any more.
+    // An infinite noise, or NaN in the probe, means all cells. So does one beside which the scene is nothing:
+    // differences of what is so far away say nothing any more.
     const double noise = probe.noise[0] < 0x1p30 ? probe.noise[0] : std::numeric_limits<double>::infinity();
     scene.grid.visit(
         probe.origin, probe.direction, noise, first_limit, cells, [&](ClusterRef cluster, double limit) -> double {

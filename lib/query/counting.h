@@ -13,8 +13,8 @@
 
 namespace pierce::detail {
 
-/// How a path crosses a triangle (crossing.h) of which the filter says `filtered`, strictly and for both sides. The move
-/// is infinitesimal: a path that does not even touch a closed triangle does not cross it when moved either.
+/// How a path crosses a triangle (crossing.h) of which the filter says `filtered`, strictly and for both sides. The
+/// move is infinitesimal: a path that does not even touch a closed triangle does not cross it when moved either.
 [[nodiscard]] inline int sign_of_crossing(const Filtered& filtered, const Path& path, const Corners& corners,
                                           QueryCounters& counters) {
     if (filtered.verdict == Verdict::miss) return 0;

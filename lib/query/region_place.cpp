@@ -191,8 +191,8 @@ template <class Scalar, class Way>
     return place<Scalar>(from, leg.region, true);
 }
 
-/// Sets the path of a flight, and says whether it crosses the face at the end of a leg: not if the leg has none, or is of
-/// another flight or another mesh.
+/// Sets the path of a flight, and says whether it crosses the face at the end of a leg: not if the leg has none, or is
+/// of another flight or another mesh.
 template <class Scalar, class Way>
 [[nodiscard]] bool leads_to_face(const RegionScene<Scalar>& regions, const Way& way, const Leg<Scalar>& leg,
                                  QueryCounters& counters, Path& path) {

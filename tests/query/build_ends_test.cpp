@@ -91,7 +91,8 @@ TEST(BuildEnds, soon_for_cells_that_are_far_too_small) {
     EXPECT_TRUE(mesh.any_hit({V(0.5 + 1e-5, 1e-5, 1), V(0.5 + 1e-5, 1e-5, -1)}));
 }
 
-// In units of its own size the mesh's distance from the origin overflowed, and the lattice's corner was sought for ever.
+// In units of its own size the mesh's distance from the origin overflowed, and the lattice's corner was sought for
+// ever.
 template <class Scalar>
 void expect_flat_mesh_far_away(double far, double size, bool refused) {
     using P = Vec3<Scalar>;

@@ -45,7 +45,8 @@ std::uint64_t decisions_in_a_cube(double low, int n) {
     Random random(61);
     QueryCounters counters;
     for (int i = 0; i < 2000; ++i) {
-        const V p = V::Constant(low) + V(random.between(0.01, 0.99), random.between(0.01, 0.99), random.between(0.01, 0.99));
+        const V p =
+            V::Constant(low) + V(random.between(0.01, 0.99), random.between(0.01, 0.99), random.between(0.01, 0.99));
         EXPECT_TRUE(mesh.contains(p.cast<Scalar>(), &counters));
     }
     return counters.exact_decisions;
@@ -64,7 +65,9 @@ TEST(Costs, contains_where_the_mesh_begins_at_zero) {
 template <class Scalar>
 std::uint64_t decisions_above_a_fan(int n, double base) {
     TriangleSoup<Scalar> soup;
-    const auto rim = [&](int i, double z) { return V(std::cos(6.283185307179586 * (i % n) / n), std::sin(6.283185307179586 * (i % n) / n), z); };
+    const auto rim = [&](int i, double z) {
+        return V(std::cos(6.283185307179586 * (i % n) / n), std::sin(6.283185307179586 * (i % n) / n), z);
+    };
     const double top = base + 10;
     for (int i = 0; i < n; ++i) {
         add_triangle(soup, V(0, 0, base), rim(i + 1, base), rim(i, base));
@@ -92,7 +95,9 @@ TEST(Costs, contains_beside_many_faces_seen_edge_on) {
     Random random(62);
     TriangleSoup<float> soup;
     add_triangle(soup, V(-1, 0, 0), V(-1, 1, 0), V(-1, 0, 1));  // so that there is more of the axis in the mesh's box
-    for (int i = 0; i < 80'000; ++i) add_triangle(soup, V(random.unit(), 0, 0), V(random.unit(), 0, 0), V(random.unit(), random.unit(), random.unit()));
+    for (int i = 0; i < 80'000; ++i)
+        add_triangle(soup, V(random.unit(), 0, 0), V(random.unit(), 0, 0),
+                     V(random.unit(), random.unit(), random.unit()));
     const CollisionMesh<float> mesh(soup.view());
     std::uint64_t beside = 0;
     for (int i = 0; i < 100; ++i) {
@@ -153,7 +158,9 @@ TEST(Costs, all_hits_on_many_faces_in_one_place) {
         // are hit at one fraction.
         for (std::size_t i = 0; i < count; ++i) {
             const double by = duplicates ? 0 : 0.3;
-            const auto some = [&](double x, double y) { return V(x + random.between(-by, by), y + random.between(-by, by), 0); };
+            const auto some = [&](double x, double y) {
+                return V(x + random.between(-by, by), y + random.between(-by, by), 0);
+            };
             const V a = some(-1, -1);
             const V b = some(1, -1);
             add_triangle(soup, a, b, some(0, 1));
@@ -166,8 +173,10 @@ TEST(Costs, all_hits_on_many_faces_in_one_place) {
             ASSERT_EQ(mesh.all_hits(segment, hits, {.counters = &counters}), count);
             for (std::size_t i = 0; i < kept; ++i) ASSERT_EQ(hits[i].face, i);
             // A heap takes 2 log2 n comparisons for a hit that goes in and 2 log2 n for one that goes out.
-            std::cout << count << (duplicates ? " duplicates" : " faces") << ", " << kept << " kept: " << counters.exact_orders << " exact orders\n";
-            EXPECT_LE(static_cast<double>(counters.exact_orders), 4 * static_cast<double>(count) * std::log2(static_cast<double>(kept)));
+            std::cout << count << (duplicates ? " duplicates" : " faces") << ", " << kept
+                      << " kept: " << counters.exact_orders << " exact orders\n";
+            EXPECT_LE(static_cast<double>(counters.exact_orders),
+                      4 * static_cast<double>(count) * std::log2(static_cast<double>(kept)));
             if (duplicates) {
                 EXPECT_EQ(counters.exact_orders, 0U);
             }
