@@ -2,7 +2,7 @@
 // points of a grid through the mesh's box. Prints a table, and the least ratios: `ratio ours.contains VALUE` where the
 // points are in random order, so that single calls wait for memory, `ratio ours.contains.grid VALUE` in the grid's
 // order.
-//   contains_bench [FILE...]      meshes to add to the sphere of 2 million triangles, in the table only
+//   contains_bench [FILE...]      meshes to add to the sphere of 8 million triangles, in the table only
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
     using namespace pierce;
     std::cout
         << "| mesh, order of points | MB | inside | single, ns | batch, ns | ratio |\n|---|---|---|---|---|---|\n";
-    const TriangleSoup<double> sphere = test::bumpy_sphere(500);
+    const TriangleSoup<double> sphere = test::bumpy_sphere(1000);
     const bench::Gains one = bench::gains(test::moved<float>(sphere, 1, {0, 0, 0}), "sphere, float");
     const bench::Gains two = bench::gains(sphere, "sphere, double");
     for (int i = 1; i < argc; ++i) bench::gains(read_mesh<float>(argv[i]), argv[i]);
