@@ -114,21 +114,13 @@ struct Scaled {
 }  // namespace
 
 template <class Scalar>
-Point exact_position(const Path& path, const Corners& corners) {
+Point exact_position(const Path& path, const Corners& corners, const Point& near) {
     const Lattice lattice = lattice_of(path, corners);
     const WideVolumes volumes(path, corners, lattice);
     const Magnitude a = magnitude(volumes.from_side());
     const Magnitude b = magnitude(volumes.to_side());
     if (a.zero()) return path.from;
     if (b.zero() && !path.ray) return path.to;
-    double fraction = 1;
-    if (!b.zero()) {
-        const Scaled of_a(a);
-        const Scaled of_b(b);
-        const double ratio =
-            std::ldexp(of_b.mantissa / of_a.mantissa, std::clamp(of_b.exponent - of_a.exponent, -3000, 3000));
-        fraction = 1 / (1 + ratio);
-    }
     Point position{};
     for (std::size_t k = 0; k < 3; ++k) {
         const double from = path.from[k];
@@ -136,8 +128,7 @@ Point exact_position(const Path& path, const Corners& corners) {
         // A ray's end is no number: there what bounds the point is the triangle.
         const double low = path.ray ? std::min({corners[0][k], corners[1][k], corners[2][k]}) : std::min(from, to);
         const double high = path.ray ? std::max({corners[0][k], corners[1][k], corners[2][k]}) : std::max(from, to);
-        const double near = path.ray ? from + to * fraction : from * (1 - fraction) + to * fraction;
-        position[k] = Coordinate(a, b, lattice, path, k, low, high).rounded<Scalar>(std::clamp(near, low, high));
+        position[k] = Coordinate(a, b, lattice, path, k, low, high).rounded<Scalar>(std::clamp(near[k], low, high));
     }
     return position;
 }
@@ -174,7 +165,7 @@ bool is_far_enough(const Corners& corners, const Point& from, const Point& point
     return far.mantissa >= std::ldexp(grain, std::clamp(exponent, -3000, 3000)) * std::sqrt(square) * (1 - 0x1p-41);
 }
 
-template Point exact_position<float>(const Path&, const Corners&);
-template Point exact_position<double>(const Path&, const Corners&);
+template Point exact_position<float>(const Path&, const Corners&, const Point&);
+template Point exact_position<double>(const Path&, const Corners&, const Point&);
 
 }  // namespace pierce::detail

@@ -50,6 +50,26 @@ inline void measure_exactly(const Path& path, const Corners& corners, QueryCount
     values.weights[3] = exact.fraction;
 }
 
+/// Where a hit lies, in double. Roundings are those of the largest number of a sum: far ends of a path say less than the
+/// triangle, far corners less than the path.
+[[nodiscard]] inline Point rough_position(const Path& path, const Corners& corners, const Values& values) {
+    Point position{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double from = path.from[k];
+        const double to = path.to[k];
+        const double fraction = values.weights[3];
+        double inside = 0;
+        double furthest = 0;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            inside += values.weights[corner] * corners[corner][k];
+            furthest = std::max(furthest, std::abs(corners[corner][k]));
+        }
+        const double along = path.ray ? from + to * fraction : from * (1 - fraction) + to * fraction;
+        position[k] = furthest < std::max(std::abs(from), std::abs(to)) ? inside : along;
+    }
+    return position;
+}
+
 /// Whether all that `certify` sets is certain.
 template <class Scalar>
 [[nodiscard]] inline bool are_certain(const Values& x, const Decision& decision) {
@@ -78,7 +98,7 @@ template <class Scalar>
     }
     if (decision.at_start || (values.located && values.rounded)) return;
     ++counters.exact_values;
-    const Point position = exact_position<Scalar>(path, corners);
+    const Point position = exact_position<Scalar>(path, corners, rough_position(path, corners, values));
     for (std::size_t k = 0; k < 3; ++k) values.position[k] = position[k];
     values.rounded = true;
     if (values.located) return;

@@ -1,6 +1,6 @@
 // What an endless ray costs beside the segment that a caller clips to the mesh's box by hand: `ours.ray` is the
 // segment's time over the ray's, single calls, medians of interleaved repetitions. Arguments: mesh files; without any,
-// a bumpy sphere.
+// a bumpy sphere, then also seen from far away.
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -96,6 +96,36 @@ void compare_both(const TriangleSoup<double>& soup, const std::string& name, std
     ratios.push_back(compare(test::moved<Scalar>(soup, 1, {0, 0, 0}), name));
 }
 
+/// Times of segments and rays that come from further and further away, aimed at the mesh.
+template <class Scalar>
+void look_from_afar(const TriangleSoup<double>& soup) {
+    constexpr std::size_t k_aimed = 2'000;
+    const CollisionMesh<Scalar> mesh(test::moved<Scalar>(soup, 1, {0, 0, 0}).view());
+    const double size = test::Extent<double>(soup.view()).diagonal();
+    std::cout << (sizeof(Scalar) == 4 ? "float" : "double") << ", ns from so many mesh sizes (segment, ray):";
+    for (const double sizes : {1e3, 1e6, 1e9, 1e12, 1e15, 1e18}) {
+        test::Random random(6);
+        std::vector<Segment<Scalar>> segments;
+        for (std::size_t i = 0; i < k_aimed; ++i) {
+            const Vec3<double> from = sizes * size * random.direction();
+            segments.push_back({from.cast<Scalar>(), (0.2 * size * random.in_cube() - from).cast<Scalar>()});
+        }
+        std::size_t hits = 0;
+        std::vector<double> times[2];
+        for (int i = 0; i < k_repetitions; ++i)
+            for (const bool ray : {false, true}) {
+                const auto start = std::chrono::steady_clock::now();
+                for (const Segment<Scalar>& one : segments)
+                    hits += (ray ? mesh.first_hit(Ray<Scalar>{one.from, one.to}) : mesh.first_hit(one)) ? 1U : 0U;
+                const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
+                times[ray ? 1 : 0].push_back(time.count() / k_aimed);
+            }
+        if (hits < k_aimed * k_repetitions) std::exit(1);  // of twice as many
+        std::cout << ' ' << sizes << ": " << median(times[0]) << ", " << median(times[1]) << ';';
+    }
+    std::cout << '\n';
+}
+
 }  // namespace
 }  // namespace pierce::bench
 
@@ -106,7 +136,11 @@ int main(int argc, char** argv) {
         bench::compare_both<float>(soup, name, ratios);
         bench::compare_both<double>(soup, name, ratios);
     };
-    if (argc < 2) add(test::bumpy_sphere(100), "bumpy sphere");
+    if (argc < 2) {
+        add(test::bumpy_sphere(100), "bumpy sphere");
+        bench::look_from_afar<float>(test::bumpy_sphere(100));
+        bench::look_from_afar<double>(test::bumpy_sphere(100));
+    }
     for (int i = 1; i < argc; ++i) add(read_mesh<double>(argv[i]), argv[i]);
     std::sort(ratios.begin(), ratios.end());
     std::cout << "ratio ours.ray " << ratios[ratios.size() / 2] << '\n';

@@ -232,7 +232,8 @@ TEST(Place, exact_positions_are_those_of_rational_numbers) {
             *p = {some(), some(), some()};
         const RationalOracle exact(path, corners);
         if (exact.from_side() == exact.to_side() || (exact.from_side() < 0) == (exact.to_side() < 0)) continue;
-        const detail::Point found = detail::exact_position<double>(path, corners);
+        const detail::Point near = random.chance(0.5) ? path.from : detail::Point{some(), some(), some()};
+        const detail::Point found = detail::exact_position<double>(path, corners, near);
         for (std::size_t k = 0; k < 3; ++k) {
             const Q at = Q(path.from[k]) + exact.fraction() * (Q(path.to[k]) - Q(path.from[k]));
             constexpr double k_infinity = std::numeric_limits<double>::infinity();
