@@ -94,4 +94,11 @@ Measures measure(const Path& path, const Corners& corners) {
     });
 }
 
+double measure_parameter(const Path& path, const Corners& corners) {
+    return with_volumes(path, corners, [&path](const auto& volumes) {
+        const auto a = magnitude(volumes.from_side());
+        return ratio(a, a + magnitude(volumes.to_side()), path.exponent);
+    });
+}
+
 }  // namespace pierce::detail

@@ -32,4 +32,8 @@ struct Measures {
 };
 [[nodiscard]] Measures measure(const Path& path, const Corners& corners);
 
+/// The caller's parameter of a triangle that a ray hits or touches (`Path::exponent`), as near. Its fraction may be far
+/// below what a double can say. Infinity above the range.
+[[nodiscard]] double measure_parameter(const Path& path, const Corners& corners);
+
 }  // namespace pierce::detail

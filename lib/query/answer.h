@@ -93,7 +93,8 @@ void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candi
     Rounded<Scalar> rounded;
     Kernel::certify(scene, candidate, path, counters, values, rounded);
     if (path.ray) {
-        const double parameter = to_parameter(path, values.weights[3]);
+        const double parameter = to_parameter(path, values.weights[3], candidate.decision.at_start,
+                                              [&] { return corners_of(candidate.measured); });
         rounded.weights[3] =
             static_cast<Scalar>(std::min(parameter, static_cast<double>(std::numeric_limits<Scalar>::max())));
     }

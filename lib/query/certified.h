@@ -22,14 +22,15 @@ template <class Scalar>
                             QueryCounters& counters) {
     const Measures measures = fine_measures(scene.narrow(), measured, path, decision, counters);
     const Point& w = measures.barycentric;
-    return options.accept({scene.face_of(triangle),
-                           scene.number_of(triangle),
-                           decision.side,
-                           decision.feature,
-                           decision.feature_index,
-                           decision.at_start,
-                           to_parameter(path, measures.fraction),
-                           {w[0], w[1], w[2]}});
+    return options.accept(
+        {scene.face_of(triangle),
+         scene.number_of(triangle),
+         decision.side,
+         decision.feature,
+         decision.feature_index,
+         decision.at_start,
+         to_parameter(path, measures.fraction, decision.at_start, [&] { return corners_of(measured); }),
+         {w[0], w[1], w[2]}});
 }
 
 /// Sets the interval of what exact arithmetic found to be hit or touched, where the filter left one that says little.

@@ -155,7 +155,8 @@ void set_values(const RegionScene<Scalar>& regions, const Path& path, std::span<
         const TriangleRef triangle = regions.where[leg.triangle];
         const Crossing crossing{triangle, leg.side == Sides::front ? 1 : -1, earliest, own_latest};
         const double fraction = fraction_of(regions.scene, path, crossing, counters);
-        leg.exit = static_cast<Scalar>(std::min(to_parameter(path, fraction), k_largest));
+        const double exit = to_parameter(path, fraction, false, [&] { return regions.scene.corners(triangle); });
+        leg.exit = static_cast<Scalar>(std::min(exit, k_largest));
         if (leg.exit < entry) leg.exit = entry;
         if (leg.exit > entry && earliest <= latest) {
             ++counters.exact_orders;

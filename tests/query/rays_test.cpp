@@ -259,6 +259,35 @@ TYPED_TEST(RayQueries, in_batches_have_the_bits_of_single_calls) {
     }
 }
 
+// A wall at x = 0 and one 2^83 behind it; a ray that starts a denormal number in front of the first. Its way to the
+// mesh's far side is 2^1157 times as long as to the hit, so the fraction was rounded to 0, and t with it: it is 2^-840.
+TEST(RayParameters, of_hits_whose_fraction_is_below_all_numbers) {
+    using V = Vec3<double>;
+    TriangleSoup<double> soup;
+    for (const double x : {0.0, -0x1p83})
+        add_triangle(soup, V(x, -0x1p83, -0x1p83), V(x, 0x1p83, -0x1p83), V(x, 0, 0x1p83));
+    const CollisionMesh<double> mesh(soup.view());
+    const Ray<double> ray{V(0x1p-1074, 0, 0), V(-0x1p-234, 0, 0)};
+    double asked = 0;
+    const auto accept = [&asked](const Contact& contact) { return asked = contact.fraction, true; };
+    const auto hit = mesh.first_hit(ray, {.sides = Sides::both, .accept = std::ref(accept)});
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->face, 0U);
+    EXPECT_EQ(hit->exact_fraction, 0x1p-840);
+    EXPECT_LE(hit->fraction, 0x1p-840);
+    EXPECT_EQ(asked, 0x1p-840);
+    std::array<Hit<double>, 2> hits;
+    ASSERT_EQ(mesh.all_hits(ray, hits, {.sides = Sides::both}), 2U);
+    EXPECT_EQ(hits[0].exact_fraction, 0x1p-840);
+    EXPECT_EQ(hits[1].exact_fraction, 0x1p317);
+    const std::array<FaceRegions, 2> labels{FaceRegions{1, 2}, FaceRegions{2, 3}};
+    const Regions<double> regions(mesh, labels, 9);
+    std::array<Leg<double>, 4> legs;
+    ASSERT_EQ(regions.walk(ray, legs), 3U);
+    EXPECT_EQ(legs[0].exit, 0x1p-840);
+    EXPECT_EQ(legs[1].entry, 0x1p-840);
+}
+
 template <class Scalar>
 class RayQueriesSoak : public ::testing::Test {};
 TYPED_TEST_SUITE(RayQueriesSoak, Scalars, );
