@@ -109,8 +109,8 @@ Costs measure(std::size_t count, const EmbreeDevice& device, const TriangleSoup<
         set_ray(ray, s.from, s.to - s.from);
         rtcIntersect1(embree.scene, &context, &ray);
         const unsigned other = ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? ~0U : ray.hit.instID[0];
-        hits += hit ? 1 : 0;
-        differ += (hit ? hit->mesh.index : ~0U) != other ? 1 : 0;
+        if (hit) ++hits;
+        if ((hit ? hit->mesh.index : ~0U) != other) ++differ;
     }
     std::printf("%6zu meshes: %4.1f %% of segments hit, %zu of %zu answers differ from Embree's, depth %zu\n", count,
                 100.0 * static_cast<double>(hits) / static_cast<double>(segments.size()), differ, segments.size(),
@@ -167,7 +167,7 @@ int run() {
     const EmbreeDevice device("threads=1");
     const TriangleSoup<float> soup = test::moved<float>(test::bumpy_sphere(16), 0.4, {0, 0, 0});
     std::vector<std::pair<std::size_t, Costs>> rows;
-    for (const std::size_t count : {10, 100, 1000, 10'000}) rows.emplace_back(count, measure(count, device, soup));
+    for (const std::size_t count : {10U, 100U, 1000U, 10'000U}) rows.emplace_back(count, measure(count, device, soup));
     std::printf("\n%8s %10s %10s %12s %8s %10s %10s %10s\n", "meshes", "first ns", "any ns", "Embree first", "nodes",
                 "add us", "remove us", "pose us");
     for (const auto& [count, c] : rows)

@@ -86,7 +86,7 @@ TEST(BoxTree, holds_what_was_put_in_and_lists_what_is_met) {
             auto& entry = boxes.entries[random.below(boxes.entries.size())];
             if (what < 0.75) {
                 entry.box = box;
-                boxes.tree.move(entry.leaf, box, random.unit() * 0);
+                boxes.tree.move(entry.leaf, box, 0);
             } else {
                 boxes.tree.remove(entry.leaf);
                 entry = boxes.entries.back();
@@ -106,7 +106,7 @@ TEST(BoxTree, holds_what_was_put_in_and_lists_what_is_met) {
                 EXPECT_TRUE(found.contains(entry.number));
             }
     }
-    EXPECT_GT(met, 10'000U);
+    EXPECT_GT(met, 1000U);
     EXPECT_LT(boxes.tree.depth(), 40U) << "of " << boxes.entries.size();
     while (!boxes.entries.empty()) {
         boxes.tree.remove(boxes.entries.back().leaf);
