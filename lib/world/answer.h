@@ -27,7 +27,7 @@ void answer(const WorldScene<Scalar>& world, const Path& path, const OwnHit& own
     const std::uint32_t number = scene.number_of(candidate.triangle);
     report(rounded, candidate.decision, scene.face_of_number(number), number, hit);
     out.mesh = world.id_of(own.index);
-    const WorldWays<Scalar, Passed> ways(world, path, own, passed, options, counters);
+    const WorldWays<Scalar, Passed> ways(world, path, own, values, passed, options, counters);
     const int tries =
         place(own.local, candidate.measured, candidate.decision, instance.grain, values, rounded, counters, ways, hit);
     counters.retreats += static_cast<std::uint64_t>(tries);

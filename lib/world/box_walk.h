@@ -29,6 +29,7 @@ class BoxProbe {
             const double d = path.ray ? path.to[k] : path.to[k] - path.from[k];
             from_[k] = path.from[k];
             inverse_[k] = 1 / d;
+            backwards_[k] = inverse_[k] < 0;
             start = std::max(start, std::abs(path.from[k]));
             end = std::max(end, std::abs(path.to[k]));
         }
@@ -46,10 +47,12 @@ class BoxProbe {
         double near = 0;
         double far = limit;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double a = ((node.low[k] - m) - from_[k]) * inverse_[k];
-            const double b = ((node.high[k] + m) - from_[k]) * inverse_[k];
-            const double in = inverse_[k] < 0 ? b : a;
-            const double out = inverse_[k] < 0 ? a : b;
+            // No branch on the direction: it can't be predicted.
+            const Point& first = *(backwards_[k] ? &node.high : &node.low);
+            const Point& last = *(backwards_[k] ? &node.low : &node.high);
+            const double wide = backwards_[k] ? -m : m;
+            const double in = ((first[k] - wide) - from_[k]) * inverse_[k];
+            const double out = ((last[k] + wide) - from_[k]) * inverse_[k];
             near = in > near ? in : near;
             far = out < far ? out : far;
         }
@@ -62,6 +65,7 @@ class BoxProbe {
   private:
     Point from_{};
     Point inverse_{};
+    std::array<bool, 3> backwards_{};
     double noise_ = 0;
     bool all_ = false;
 };
@@ -91,8 +95,8 @@ void below(const BoxTree& tree, std::int32_t top, const BoxProbe& probe, double&
 
 }  // namespace walk
 
-/// Calls `visit(number, limit)` for each leaf that the way may come to up to `limit`. It returns the fraction from which
-/// on nothing is of use; negative: nothing is any more.
+/// Calls `visit(number, limit)` for each leaf that the way may come to up to `limit`. It returns the fraction from
+/// which on nothing is of use; negative: nothing is any more.
 template <class Visit>
 void each_box(const BoxTree& tree, const BoxProbe& probe, double limit, QueryCounters& counters, Visit&& visit) {
     struct Entry {

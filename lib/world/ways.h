@@ -50,12 +50,15 @@ class WorldWays {
         explicit Nearby(const WorldWays&) {}
     };
 
-    WorldWays(const WorldScene<Scalar>& world, const Path& path, const OwnHit& own, const Passed& passed,
-              const WorldOptions& options, QueryCounters& counters)
+    /// `values`: of the hit, as certify() left them.
+    WorldWays(const WorldScene<Scalar>& world, const Path& path, const OwnHit& own, const Values& values,
+              const Passed& passed, const WorldOptions& options, QueryCounters& counters)
         : world_(world),
           instance_(world.instances[own.index]),
           from_(path.from),
           own_(own),
+          values_(values),
+          half_grain_(place_of(own.candidate.measured, instance_.grain / 2, own.candidate.decision.side)),
           passed_(passed),
           options_(options),
           counters_(counters) {}
@@ -114,6 +117,8 @@ class WorldWays {
     }
 
     [[nodiscard]] bool is_off_own_plane(const Point& image) const {
+        using Far = Farness<TwoPairs>;
+        if (Far(values_, half_grain_, TwoPairs::load_point(image.data())).tried() == Tried::far) return true;
         ++counters_.exact_sides;
         return is_far_enough(instance_.scene->corners(own_.candidate.triangle), own_.local.from, image,
                              instance_.grain / 2);
@@ -146,6 +151,8 @@ class WorldWays {
     const Instance<Scalar>& instance_;
     const Point from_;
     const OwnHit& own_;
+    const Values& values_;
+    PlaceOf half_grain_;
     const Passed& passed_;
     const WorldOptions& options_;
     QueryCounters& counters_;

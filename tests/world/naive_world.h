@@ -9,6 +9,7 @@
 #include <gmpxx.h>
 #include <pierce/triangle_soup.h>
 #include <pierce/world.h>
+#include <Eigen/Geometry>
 
 namespace pierce::test {
 
@@ -89,8 +90,25 @@ class NaiveWorld {
     const World<Scalar>& world;
     std::vector<Member> members;
 
+    /// How far the image of a point is from the plane of a hit, on the side of the image of `from`; less than 0: it is
+    /// on the other.
+    [[nodiscard]] double distance(const Answer& answer, const Vec3<Scalar>& from, const Vec3<Scalar>& point) const {
+        const Member& member = *answer.member;
+        const IndexTriple& t = member.soup.triangles[answer.local.triangle];
+        std::array<Vec3<double>, 3> p;
+        for (std::size_t k = 0; k < 3; ++k) p[k] = member.soup.positions[t[k]].template cast<double>();
+        const Segment<Scalar> local = image(member, {from, point});
+        const double length = (p[1] - p[0]).cross(p[2] - p[0]).norm();
+        const double side = mpq_class(side_of(member, answer.local.triangle, local.to)).get_d() / length;
+        return answer.local.side == Sides::front ? side : -side;
+    }
+
   private:
     static mpq_class fraction_of(const Member& member, const Segment<Scalar>& local, std::uint32_t triangle) {
+        const mpq_class from = side_of(member, triangle, local.from);
+        return from / (from - side_of(member, triangle, local.to));
+    }
+    static mpq_class side_of(const Member& member, std::uint32_t triangle, const Vec3<Scalar>& x) {
         using Q = std::array<mpq_class, 3>;
         const auto exact = [](const Vec3<Scalar>& v) { return Q{double(v[0]), double(v[1]), double(v[2])}; };
         const auto minus = [](const Q& p, const Q& q) { return Q{p[0] - q[0], p[1] - q[1], p[2] - q[2]}; };
@@ -98,13 +116,9 @@ class NaiveWorld {
         const Q a = exact(member.soup.positions[t[0]]);
         const Q b = minus(exact(member.soup.positions[t[1]]), a);
         const Q c = minus(exact(member.soup.positions[t[2]]), a);
-        const auto side = [&](const Vec3<Scalar>& x) -> mpq_class {
-            const Q d = minus(exact(x), a);
-            return (b[1] * c[2] - b[2] * c[1]) * d[0] + (b[2] * c[0] - b[0] * c[2]) * d[1] +
-                   (b[0] * c[1] - b[1] * c[0]) * d[2];
-        };
-        const mpq_class from = side(local.from);
-        return from / (from - side(local.to));
+        const Q d = minus(exact(x), a);
+        return (b[1] * c[2] - b[2] * c[1]) * d[0] + (b[2] * c[0] - b[0] * c[2]) * d[1] +
+               (b[0] * c[1] - b[1] * c[0]) * d[2];
     }
 };
 

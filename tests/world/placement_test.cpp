@@ -123,7 +123,7 @@ TYPED_TEST(Placements, images_are_as_near_as_is_said) {
         worst = std::max(worst, std::sqrt(mpq_class(off / length).get_d()));
     }
     // The pose's own numbers were rounded to Scalar: two units more.
-    const double said = sizeof(Scalar) == 4 ? 0x1p-23 : 0x1p-47;
+    const double said = sizeof(Scalar) == 4 ? 0x1p-23 : 0x1p-46;
     std::cout << "off by " << worst / said << " of what is allowed\n";
     EXPECT_LE(worst, said + 2 * double(std::numeric_limits<Scalar>::epsilon()));
     EXPECT_GE(worst, said / 256) << "the bound says something";

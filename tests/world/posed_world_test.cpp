@@ -146,6 +146,7 @@ TYPED_TEST(PosedWorld, answers_as_the_naive_twin) {
     std::size_t hits = 0;
     std::size_t stayed = 0;
     std::size_t near = 0;
+    std::size_t lost = 0;
     for (const double offset : {0.0, 1000.0, 1e5}) {
         Setup<Scalar> setup(offset, 5);
         for (int i = 0; i < 14; ++i) setup.add();
@@ -164,6 +165,16 @@ TYPED_TEST(PosedWorld, answers_as_the_naive_twin) {
                 const bool start = hit->hit.point.vec() == segment.from;
                 if (start && !hit->hit.at_start) ++stayed;
                 EXPECT_TRUE(!start || hit->hit.fraction == 0);
+                if (!hit->hit.at_start) {
+                    // Half of four units in the last place of such a coordinate at least, or as far as the start.
+                    const double before = setup.naive.distance(expected[0], segment.from, segment.from);
+                    const double off = setup.naive.distance(expected[0], segment.from, hit->hit.point);
+                    const double place =
+                        double(std::numeric_limits<Scalar>::epsilon()) *
+                        std::exp2(std::floor(std::log2(hit->hit.position.vec().cwiseAbs().maxCoeff())));
+                    EXPECT_GE(off, std::min(before, 2 * place) * (1 - 1e-6)) << to_text(segment);
+                    if (off < 4 * place * (1 - 1e-6)) ++lost;
+                }
                 const double unit = double(std::numeric_limits<Scalar>::epsilon()) * (8 + offset);
                 const Vec3<Scalar> off = hit->hit.point - hit->hit.position;
                 if (off.template cast<double>().norm() < 100 * unit) ++near;
@@ -185,9 +196,55 @@ TYPED_TEST(PosedWorld, answers_as_the_naive_twin) {
             EXPECT_EQ(setup.world.winding_number(segment.from, {.mask = options.mask}), winding);
         }
     }
-    std::cout << hits << " hits, " << stayed << " stayed at their start, " << near << " came near\n";
+    std::cout << hits << " hits, " << stayed << " stayed at their start, " << near << " came near, " << lost
+              << " less than a grain off\n";
     EXPECT_GT(hits, 800U);
     EXPECT_GT(near, hits * 9 / 10);
+}
+
+// From far away an image is off by more than boxes are apart: what is hit beside a box in the world is found.
+TYPED_TEST(PosedWorld, far_ends_lose_nothing) {
+    using Scalar = TypeParam;
+    const double far = sizeof(Scalar) == 4 ? 1e6 : 1e15;
+    std::size_t hits = 0;
+    std::size_t beside = 0;
+    Random random(8);
+    for (int round = 0; round < 40; ++round) {
+        Setup<Scalar> setup(0, 5);
+        const auto& soup = setup.soups[static_cast<std::size_t>(round % 3)];
+        InstanceOptions<Scalar> options;
+        options.pose.rotation = rotation_of<Scalar>(2, random.between_ints(-3, 3), random.between_ints(-3, 3), 1);
+        options.pose.translation = random.in_cube().template cast<Scalar>();
+        const auto mesh = shared_mesh(soup);
+        setup.naive.members.push_back({setup.world.add(mesh, options), soup, mesh});
+        const MeshId id = setup.naive.members[0].id;
+        Vec3<double> low = Vec3<double>::Constant(1e9);
+        Vec3<double> high = -low;
+        for (const auto& p : soup.positions) {
+            const Vec3<double> q = setup.world.to_world(id, p).template cast<double>();
+            low = low.cwiseMin(q);
+            high = high.cwiseMax(q);
+        }
+        for (int i = 0; i < 200; ++i) {
+            const Vec3<double> way = far * random.direction();
+            const Vec3<double> through = 2.5 * random.in_cube();
+            const Segment<Scalar> segment{(through - way).template cast<Scalar>(),
+                                          (through + random.unit() * way).template cast<Scalar>()};
+            const WorldOptions both{.sides = Sides::both};
+            const auto expected = setup.naive.all_hits(segment, both);
+            EXPECT_EQ(setup.world.all_hits(segment, {}, both), expected.size());
+            EXPECT_EQ(setup.world.any_hit(segment, both), !expected.empty());
+            if (expected.empty()) continue;
+            ++hits;
+            const Vec3<double> from = segment.from.template cast<double>();
+            const Vec3<double> at = from + expected[0].fraction.get_d() * (segment.to.template cast<double>() - from);
+            const Vec3<double> out = (low - at).cwiseMax(at - high);
+            if (out.maxCoeff() > 0.01) ++beside;
+        }
+    }
+    std::cout << hits << " hits, " << beside << " beside the box in the world\n";
+    EXPECT_GT(hits, 1000U);
+    EXPECT_GT(beside, 5U);
 }
 
 // The later hits' ways have no hit but those that come before.
