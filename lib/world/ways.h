@@ -46,6 +46,7 @@ struct OwnHit {
 template <class Scalar, class Passed>
 class WorldWays {
   public:
+    // Nothing is kept for many near places: a world asks about each of them anew (nearby.h says what that costs).
     struct Nearby {
         explicit Nearby(const WorldWays&) {}
     };
