@@ -29,6 +29,8 @@ namespace pierce {
 
 template <class Scalar>
 class Regions;
+template <class Scalar>
+class World;
 
 /// What was built, and what was odd about it. Bytes are those the library holds, all of them counted.
 struct MeshStatistics {
@@ -241,6 +243,7 @@ class PIERCE_EXPORT CollisionMesh {
                                  const QueryOptions& options, const Executor& executor) const;
 
     friend class Regions<Scalar>;
+    friend class World<Scalar>;
 
     struct PIERCE_HIDDEN Impl;
     struct PIERCE_HIDDEN Release {

@@ -6,9 +6,9 @@
 //       particle = hit->point;                                  // safe to stand on, safe to step from
 //
 // Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, ray.h, location.h, passage.h,
-// batch.h, collision_mesh.h; regions.h for particle transport; result.h for programs without exceptions.
-// <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single
-// triangles. <pierce/pierce_c.h> is for programs in C.
+// batch.h, collision_mesh.h; world.h for many meshes; regions.h for particle transport; result.h for programs without
+// exceptions. <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests
+// for single triangles. <pierce/pierce_c.h> is for programs in C.
 #pragma once
 
 #include <pierce/batch.h>
@@ -27,3 +27,4 @@
 #include <pierce/try_read_mesh.h>
 #include <pierce/types.h>
 #include <pierce/version.h>
+#include <pierce/world.h>

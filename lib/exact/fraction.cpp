@@ -9,20 +9,38 @@ namespace pierce::detail {
 // For a triangle that is hit or touched, from_side = F and to_side = T have opposite signs, or one of them is 0 and the
 // other is not. So with A = |F| and B = |T| its fraction is A / (A + B), whichever side was hit, and A + B > 0.
 
+namespace {
+
+// A1 / (A1 + B1) < A2 / (A2 + B2)  <=>  A1 B2 < B1 A2, all of them >= 0, both sums > 0. A and B of one path are on one
+// lattice, so both sides have the same unit, whatever the lattices are.
+template <class One, class Other>
+int compare_shares(const One& one, const Other& other) {
+    return compare_products(magnitude(one.from_side()), magnitude(other.to_side()), magnitude(one.to_side()),
+                            magnitude(other.from_side()));
+}
+
+}  // namespace
+
 int compare_fractions(const Path& path, const Corners& first, const Corners& second) {
     Lattice lattice = lattice_of(path, first);
     for (const Point& corner : second) lattice.add(corner);
-    // A1 / (A1 + B1) < A2 / (A2 + B2)  <=>  A1 B2 < A2 B1, all of them >= 0, both sums > 0.
-    const auto order = [](const auto& one, const auto& two) {
-        return compare_products(magnitude(one.from_side()), magnitude(two.to_side()), magnitude(two.from_side()),
-                                magnitude(one.to_side()));
-    };
     return with_limbs(
         lattice.bits(),
         [&]<int N>(std::integral_constant<int, N>) {
-            return order(Volumes<N>(path, first, lattice), Volumes<N>(path, second, lattice));
+            return compare_shares(Volumes<N>(path, first, lattice), Volumes<N>(path, second, lattice));
         },
-        [&] { return order(WideVolumes(path, first, lattice), WideVolumes(path, second, lattice)); });
+        [&] { return compare_shares(WideVolumes(path, first, lattice), WideVolumes(path, second, lattice)); });
+}
+
+int compare_fractions(const Path& one, const Corners& first, const Path& other, const Corners& second) {
+    const Lattice lattice = lattice_of(one, first);
+    const Lattice lattice_of_other = lattice_of(other, second);
+    return with_limbs(
+        std::max(lattice.bits(), lattice_of_other.bits()),
+        [&]<int N>(std::integral_constant<int, N>) {
+            return compare_shares(Volumes<N>(one, first, lattice), Volumes<N>(other, second, lattice_of_other));
+        },
+        [&] { return compare_shares(WideVolumes(one, first, lattice), WideVolumes(other, second, lattice_of_other)); });
 }
 
 bool same_place(const Corners& first, const Decision& one, const Corners& second, const Decision& two) {

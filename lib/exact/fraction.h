@@ -9,6 +9,9 @@ namespace pierce::detail {
 /// equal. The path must hit both, or touch them (touch.h): its ends are not both on a plane, nor strictly on one side.
 [[nodiscard]] int compare_fractions(const Path& path, const Corners& first, const Corners& second);
 
+/// The same for two paths, each with a triangle of its own.
+[[nodiscard]] int compare_fractions(const Path& one, const Corners& first, const Path& other, const Corners& second);
+
 /// Whether two triangles, hit or touched by one path, certainly are so in the same point because they lie on one edge
 /// or one vertex, by its coordinates: a line that passes the plane of an edge meets it in one point. So their fractions
 /// are equal, and no arithmetic is needed.

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include <pierce/regions.h>
+#include <pierce/world.h>
 #include <query/batch_world.h>
 #include <support/executors.h>
 #include <support/own_new.h>
@@ -64,6 +65,24 @@ void check() {
                     ? 1
                     : 0;
         }
+    });
+    World<Scalar> world;
+    for (int i = 0; i < 20; ++i) {
+        InstanceOptions<Scalar> where;
+        where.pose.translation = Vec3<Scalar>::Constant(static_cast<Scalar>(i));
+        if (i % 2 != 0) where.pose.rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+        (void)world.add(std::make_shared<const CollisionMesh<Scalar>>(soup.view()), where);
+    }
+    std::vector<WorldHit<Scalar>> world_hits(segments.size());
+    std::array<WorldHit<Scalar>, 8> world_all;
+    const WorldOptions world_options{.sides = Sides::both};
+    expect_none("queries of a world", [&] {
+        world.first_hits(segments, world_hits, world_options, reversed);
+        world.any_hits(segments, any, world_options, reversed);
+        for (std::size_t i = 0; i < segments.size(); i += 25)
+            any[i] =
+                world.all_hits(segments[i], world_all, world_options) > 3 && world.contains(segments[i].to) ? 1 : 0;
+        for (std::size_t i = 0; i < 20; ++i) world.set_pose({static_cast<std::uint32_t>(i), 1}, {});
     });
     std::vector<Vec3<Scalar>> points;
     for (const Segment<Scalar>& segment : segments) points.push_back(segment.to);

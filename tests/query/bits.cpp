@@ -6,6 +6,7 @@
 
 #include <pierce/collision_mesh.h>
 #include <pierce/regions.h>
+#include <pierce/world.h>
 #include <support/hash.h>
 #include <support/meshes.h>
 #include <support/segments.h>
@@ -90,6 +91,57 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
     for (const std::uint8_t hit : any) hash.add(hit);
 }
 
+// The mesh many times, turned by small quaternions (no sines) and as it is.
+template <class Scalar>
+void add_worlds(Hash& hash, const TriangleSoup<double>& unit, double offset, int count = 4000) {
+    const TriangleSoup<Scalar> soup = moved<Scalar>(unit, 1, {0, 0, 0});
+    const auto mesh = std::make_shared<const CollisionMesh<Scalar>>(soup.view());
+    Random random(23);
+    World<Scalar> world;
+    std::vector<MeshId> ids;
+    for (int i = 0; i < 40; ++i) {
+        InstanceOptions<Scalar> options;
+        const double w = 1 + random.between_ints(0, 4);
+        const double x = random.between_ints(-4, 4);
+        const double y = random.between_ints(-4, 4);
+        const double z = random.between_ints(-4, 4);
+        const double n = w * w + x * x + y * y + z * z;
+        Eigen::Matrix3d r;
+        r << w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y),  //
+            2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x),   //
+            2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z;
+        if (i % 4 != 0) options.pose.rotation = (r / n).template cast<Scalar>();
+        const Vec3<double> shift = 4 * random.in_cube() + Vec3<double>(offset, -offset, offset);
+        if (i % 5 != 0) options.pose.translation = shift.template cast<Scalar>();
+        ids.push_back(world.add(mesh, options));
+    }
+    std::array<WorldHit<Scalar>, 4> hits;
+    const auto add = [&hash](const WorldHit<Scalar>& hit) {
+        hash.add(hit.mesh.index);
+        hash.add(hit.hit);
+    };
+    for (int i = 0; i < count; ++i) {
+        if (i % 40 == 0) {
+            InstanceOptions<Scalar> options;
+            const Vec3<double> shift = 4 * random.in_cube() + Vec3<double>(offset, -offset, offset);
+            options.pose.translation = shift.template cast<Scalar>();
+            world.set_pose(ids[random.below(ids.size())], options.pose);
+        }
+        const Vec3<double> from = 5 * random.in_cube() + Vec3<double>(offset, -offset, offset);
+        const Vec3<double> to = 5 * random.in_cube() + Vec3<double>(offset, -offset, offset);
+        const Segment<Scalar> segment{from.template cast<Scalar>(), to.template cast<Scalar>()};
+        const std::size_t total = world.all_hits(segment, hits, {.sides = Sides::both});
+        hash.add(total);
+        for (std::size_t k = 0; k < std::min(total, hits.size()); ++k) add(hits[k]);
+        if (const auto hit = world.first_hit(segment)) add(*hit);
+        const Ray<Scalar> ray{segment.from, segment.to - segment.from};
+        if (const auto hit = world.first_hit(ray, {.sides = Sides::both})) add(*hit);
+        hash.add(static_cast<std::uint64_t>(world.crossings(segment)));
+        hash.add(static_cast<std::uint64_t>(world.crossings(ray)));
+        hash.add(static_cast<std::uint64_t>(world.winding_number(segment.to)));
+    }
+}
+
 }  // namespace
 }  // namespace pierce::test
 
@@ -108,6 +160,12 @@ int main() {
     for (const double offset : {0.0, 1e4}) {
         add_answers<float>(hash, splinters(2000, 7), 1, offset);
         add_answers<double>(hash, splinters(2000, 8), 1, offset);
+    }
+    for (const double offset : {0.0, 1e3, 1e6}) {
+        add_worlds<float>(hash, polycube(2, 0.6, 1, 3), offset);
+        add_worlds<double>(hash, polycube(2, 0.6, 1, 3), offset);
+        add_worlds<float>(hash, terrain(8, 0.3, 4), offset);
+        add_worlds<double>(hash, terrain(8, 0.3, 4), offset);
     }
     std::printf("%016llx\n", static_cast<unsigned long long>(hash.value()));
 }

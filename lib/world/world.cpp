@@ -1,0 +1,237 @@
+// The façade of worlds: changes, and single queries.
+#include <pierce/world.h>
+
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <environment.h>
+#include <query/collision_mesh_impl.h>
+#include <world/engine.h>
+#include <world/world_impl.h>
+
+namespace pierce {
+
+using namespace detail;
+
+namespace {
+
+/// The caller's counters, or some that nobody looks at.
+class Counters {
+  public:
+    explicit Counters(QueryCounters* given) : counters_(given != nullptr ? *given : spare_) { ++counters_.queries; }
+    operator QueryCounters&() { return counters_; }
+
+  private:
+    QueryCounters spare_;
+    QueryCounters& counters_;
+};
+
+template <class Scalar, class Impl, class Way>
+std::optional<WorldHit<Scalar>> first_along(const Impl& impl, const Way& way, const WorldOptions& options) {
+    const StandardArithmetic standard;
+    Counters counters(options.counters);
+    if (!impl.valid(way) || !(options.max_fraction >= 0)) return std::nullopt;
+    return detail::first_hit(impl.scene, way, options, counters);
+}
+
+template <class Impl, class Way>
+bool any_along(const Impl& impl, const Way& way, const WorldOptions& options) {
+    const StandardArithmetic standard;
+    Counters counters(options.counters);
+    if (!impl.valid(way) || !(options.max_fraction >= 0)) return false;
+    return detail::any_hit(impl.scene, way, options, counters);
+}
+
+template <class Scalar, class Impl, class Way>
+std::size_t all_along(const Impl& impl, const Way& way, std::span<WorldHit<Scalar>> out, const WorldOptions& options) {
+    const StandardArithmetic standard;
+    Counters counters(options.counters);
+    if (!impl.valid(way) || !(options.max_fraction >= 0)) return 0;
+    return detail::all_hits(impl.scene, way, out, options, counters);
+}
+
+template <class Impl, class Way>
+int crossings_along(const Impl& impl, const Way& way, const WorldCountOptions& options) {
+    const StandardArithmetic standard;
+    Counters counters(options.counters);
+    if (!impl.valid(way)) return 0;
+    return detail::crossings(impl.scene, way, options.mask, counters);
+}
+
+template <class Impl>
+std::uint32_t index_of(const Impl& impl, MeshId id) {
+    if (!impl.scene.holds(id)) throw std::invalid_argument("the world has no mesh of this MeshId: it is stale");
+    return id.index;
+}
+
+template <class Scalar>
+Vec3<Scalar> no_vector() {
+    return Vec3<Scalar>::Constant(std::numeric_limits<Scalar>::quiet_NaN());
+}
+
+}  // namespace
+
+template <class Scalar>
+World<Scalar>::World() : impl_(new Impl) {}
+template <class Scalar>
+World<Scalar>::~World() = default;
+
+template <class Scalar>
+World<Scalar>::World(const World& other) : World() {
+    impl_->scene = other.impl_->scene;
+    impl_->scene.free.reserve(impl_->scene.instances.size());  // as removing asks for
+}
+template <class Scalar>
+World<Scalar>& World<Scalar>::operator=(const World& other) {
+    return *this = World(other);
+}
+template <class Scalar>
+World<Scalar>::World(World&& other) noexcept = default;
+template <class Scalar>
+World<Scalar>& World<Scalar>::operator=(World&& other) noexcept = default;
+
+template <class Scalar>
+MeshId World<Scalar>::add(Mesh mesh, const InstanceOptions<Scalar>& options) {
+    const StandardArithmetic standard;
+    if (mesh == nullptr) throw std::invalid_argument("a mesh for a world is null");
+    Instance<Scalar> instance;
+    instance.scene = &mesh->impl_->scene;
+    instance.owner = std::move(mesh);
+    instance.placement = make_placement(options.pose);
+    instance.layers = options.layers;
+    instance.face_layers = options.face_layers;
+    return impl_->scene.id_of(impl_->scene.add(std::move(instance)));
+}
+
+template <class Scalar>
+bool World<Scalar>::remove(MeshId id) noexcept {
+    const StandardArithmetic standard;
+    if (!impl_->scene.holds(id)) return false;
+    impl_->scene.remove(id.index);
+    return true;
+}
+
+template <class Scalar>
+void World<Scalar>::replace(MeshId id, Mesh mesh) {
+    const StandardArithmetic standard;
+    const std::uint32_t index = index_of(*impl_, id);
+    if (mesh == nullptr) throw std::invalid_argument("a mesh for a world is null");
+    const Scene<Scalar>& scene = mesh->impl_->scene;
+    impl_->scene.put(index, std::move(mesh), scene, impl_->scene.instances[index].placement);
+}
+
+template <class Scalar>
+void World<Scalar>::set_pose(MeshId id, const Pose<Scalar>& pose) {
+    const StandardArithmetic standard;
+    const std::uint32_t index = index_of(*impl_, id);
+    const Instance<Scalar>& instance = impl_->scene.instances[index];
+    impl_->scene.put(index, instance.owner, *instance.scene, make_placement(pose));
+}
+
+template <class Scalar>
+void World<Scalar>::set_layers(MeshId id, std::uint32_t layers) {
+    impl_->scene.instances[index_of(*impl_, id)].layers = layers;
+}
+
+template <class Scalar>
+void World<Scalar>::set_face_layers(MeshId id, std::shared_ptr<const std::vector<std::uint32_t>> face_layers) {
+    impl_->scene.instances[index_of(*impl_, id)].face_layers = std::move(face_layers);
+}
+
+template <class Scalar>
+bool World<Scalar>::holds(MeshId id) const noexcept {
+    return impl_->scene.holds(id);
+}
+
+template <class Scalar>
+std::size_t World<Scalar>::size() const noexcept {
+    return impl_->scene.size();
+}
+
+template <class Scalar>
+typename World<Scalar>::Mesh World<Scalar>::mesh(MeshId id) const noexcept {
+    if (!holds(id)) return nullptr;
+    return std::static_pointer_cast<const CollisionMesh<Scalar>>(impl_->scene.instances[id.index].owner);
+}
+
+template <class Scalar>
+Vec3<Scalar> World<Scalar>::to_mesh(MeshId id, const Vec3<Scalar>& point) const noexcept {
+    const StandardArithmetic standard;
+    return holds(id) ? detail::to_mesh(impl_->scene.instances[id.index].placement, point) : no_vector<Scalar>();
+}
+
+template <class Scalar>
+Vec3<Scalar> World<Scalar>::to_world(MeshId id, const Vec3<Scalar>& point) const noexcept {
+    const StandardArithmetic standard;
+    return holds(id) ? detail::to_world(impl_->scene.instances[id.index].placement, point) : no_vector<Scalar>();
+}
+
+template <class Scalar>
+std::optional<WorldHit<Scalar>> World<Scalar>::first_hit(const Segment<Scalar>& segment,
+                                                         const WorldOptions& options) const noexcept {
+    return first_along<Scalar>(*impl_, segment, options);
+}
+template <class Scalar>
+bool World<Scalar>::any_hit(const Segment<Scalar>& segment, const WorldOptions& options) const noexcept {
+    return any_along(*impl_, segment, options);
+}
+template <class Scalar>
+std::size_t World<Scalar>::all_hits(const Segment<Scalar>& segment, std::span<WorldHit<Scalar>> out,
+                                    const WorldOptions& options) const noexcept {
+    return all_along<Scalar>(*impl_, segment, out, options);
+}
+template <class Scalar>
+int World<Scalar>::crossings(const Segment<Scalar>& segment, const WorldCountOptions& options) const noexcept {
+    return crossings_along(*impl_, segment, options);
+}
+template <class Scalar>
+std::optional<WorldHit<Scalar>> World<Scalar>::first_hit_of_ray(const Ray<Scalar>& ray,
+                                                                const WorldOptions& options) const noexcept {
+    return first_along<Scalar>(*impl_, ray, options);
+}
+template <class Scalar>
+bool World<Scalar>::any_hit_of_ray(const Ray<Scalar>& ray, const WorldOptions& options) const noexcept {
+    return any_along(*impl_, ray, options);
+}
+template <class Scalar>
+std::size_t World<Scalar>::all_hits_of_ray(const Ray<Scalar>& ray, std::span<WorldHit<Scalar>> out,
+                                           const WorldOptions& options) const noexcept {
+    return all_along<Scalar>(*impl_, ray, out, options);
+}
+template <class Scalar>
+int World<Scalar>::crossings_of_ray(const Ray<Scalar>& ray, const WorldCountOptions& options) const noexcept {
+    return crossings_along(*impl_, ray, options);
+}
+
+template <class Scalar>
+int World<Scalar>::winding_number(const Vec3<Scalar>& point, const WorldCountOptions& options) const noexcept {
+    const StandardArithmetic standard;
+    Counters counters(options.counters);
+    if (!impl_->valid(point)) return 0;
+    return detail::winding_number(impl_->scene, point, options.mask, counters);
+}
+
+template <class Scalar>
+bool World<Scalar>::contains(const Vec3<Scalar>& point, const WorldCountOptions& options) const noexcept {
+    return winding_number(point, options) != 0;
+}
+
+template <class Scalar>
+WorldStatistics World<Scalar>::statistics() const noexcept {
+    const WorldScene<Scalar>& scene = impl_->scene;
+    WorldStatistics s;
+    s.meshes = scene.size();
+    for (const Instance<Scalar>& instance : scene.instances)
+        if (instance.owner != nullptr) s.triangles += instance.scene->triangles.size();
+    s.depth = scene.tree.depth();
+    s.bytes = sizeof(Impl) + scene.instances.capacity() * sizeof(Instance<Scalar>) +
+              scene.free.capacity() * sizeof(std::uint32_t) + scene.tree.bytes();
+    s.invalid_queries = impl_->invalid_queries.load(std::memory_order_relaxed);
+    return s;
+}
+
+template class World<float>;
+template class World<double>;
+
+}  // namespace pierce
