@@ -42,7 +42,8 @@ struct SphereHit {
     /// The time of impact, rounded down: 0 where the ball starts in contact and goes in.
     Scalar fraction;
     /// Where to stop the ball: verified, see above. As a rule it is the true place moved a grain off the surface, and
-    /// rounded; a grain is four units in the last place of the largest coordinate there. So it need not lie on the
+    /// rounded; a grain is four units in the last place of the largest coordinate there, and in double at least 2^-45 of
+    /// the distance of the triangle's furthest corner from the start. So it need not lie on the
     /// segment. It is `from` where the ball starts in contact, or so near that nothing is gained. In `sphere_hits` it
     /// is the place at `fraction`, not verified; in `sphere_contacts` the center given.
     Coordinates<Scalar> center;

@@ -118,6 +118,7 @@ Point unit_of(const Point& n) { return times(1 / std::sqrt(dot(n, n)), n); }
 /// Where the two touch at a time that is known.
 void describe(const Sphere& sphere, const Corners& corners, Entry& entry) {
     entry.distance = distance_at_start(corners);
+    entry.reach = reach_of(corners);
     entry.center = times(entry.time, sphere.way);
     entry.nearest = nearest_of(corners, entry.center);
     Point n = direction_from(corners, entry.nearest, entry.center);

@@ -34,6 +34,7 @@ struct Entry {
     bool at_start = false;  ///< it is no further away than the radius at the start, and comes nearer
     bool overlaps = false;  ///< nearer than the radius at the start
     double distance = 0;    ///< at the start, about; in scaled units
+    double reach = 0;       ///< how far the triangle's furthest corner is from the start, in a coordinate; scaled
     /// At that time: the nearest point of the triangle, where the center is, and the unit vector between; relative to
     /// the start, scaled.
     Nearest nearest;

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 
 #include <pierce/triangle_soup.h>
+#include <point.h>
+#include <sphere/nearest.h>
 #include <support/meshes.h>
 #include <support/random.h>
 
@@ -73,9 +75,21 @@ Vec3<double> place_on(const TriangleSoup<Scalar>& soup, Random& random, std::siz
     return place;
 }
 
-/// `size`: about that of the mesh.
+/// Whether the center is nearer to a triangle than the radius, about.
 template <class Scalar>
-SphereCase<Scalar> sphere_case(const TriangleSoup<Scalar>& soup, Random& random, double size) {
+bool overlaps_about(const TriangleSoup<Scalar>& soup, const SphereCase<Scalar>& c) {
+    using detail::to_point;
+    return std::any_of(soup.triangles.begin(), soup.triangles.end(), [&](const IndexTriple& t) {
+        const detail::Corners corners = {to_point(soup.positions[t[0]]), to_point(soup.positions[t[1]]),
+                                         to_point(soup.positions[t[2]])};
+        const detail::Point from = to_point(c.step.from);
+        const detail::Point away = detail::minus(from, detail::nearest_of(corners, from).point);
+        return std::sqrt(detail::dot(away, away)) < static_cast<double>(c.radius) * (1 - 1e-6);
+    });
+}
+
+template <class Scalar>
+SphereCase<Scalar> any_sphere_case(const TriangleSoup<Scalar>& soup, Random& random, double size) {
     SphereCase<Scalar> out;
     const std::size_t triangle = random.below(soup.triangles.size());
     const IndexTriple& t = soup.triangles[triangle];
@@ -114,6 +128,15 @@ SphereCase<Scalar> sphere_case(const TriangleSoup<Scalar>& soup, Random& random,
     out.step = {from.cast<Scalar>(), to.cast<Scalar>()};
     if (random.chance(0.01)) out.step.to = out.step.from;
     return out;
+}
+
+/// `size`: about that of the mesh. One in ten of those that overlap at the start is taken.
+template <class Scalar>
+SphereCase<Scalar> sphere_case(const TriangleSoup<Scalar>& soup, Random& random, double size) {
+    for (;;) {
+        const SphereCase<Scalar> c = any_sphere_case(soup, random, size);
+        if (random.chance(0.1) || !overlaps_about(soup, c)) return c;
+    }
 }
 
 }  // namespace pierce::test
