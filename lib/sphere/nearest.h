@@ -1,6 +1,9 @@
 // The nearest point of a triangle, in plain doubles: near enough to begin with, and nothing is decided by it.
 #pragma once
 
+#include <bit>
+#include <cstdint>
+
 #include <pierce/sides.h>
 #include <sphere/vector.h>
 
@@ -56,15 +59,16 @@ struct Nearest {
     return {Feature::face, 0, second, third, plus(a, plus(times(second, ab), times(third, ac)))};
 }
 
-/// About in the direction from the nearest point to x, the largest |component| between 1/2 and 2; 0 where there is none.
-/// Across the plane of a face, or an edge, which the difference of two near points need not be.
+/// n times a power of two, the largest |component| at least 1 and below 2; 0 where that is not a normal number.
+[[nodiscard]] inline Point scaled(const Point& n) {
+    const std::uint64_t exponent = std::bit_cast<std::uint64_t>(size_of(n)) >> 52;
+    if (exponent == 0 || exponent >= 2046) return Point{};
+    return times(std::bit_cast<double>((2046 - exponent) << 52), n);
+}
+
+/// About in the direction from the nearest point to x, scaled; 0 where there is none. Across the plane of a face, or an
+/// edge, which the difference of two near points need not be.
 [[nodiscard]] inline Point direction_from(const Corners& corners, const Nearest& nearest, const Point& x) {
-    const auto scaled = [](const Point& n) {
-        const double size = size_of(n);
-        if (!(size >= 0x1p-1020 && size <= 0x1p1020)) return Point{};
-        const double factor = std::ldexp(1.0, -std::ilogb(size));
-        return times(factor, n);
-    };
     if (nearest.feature == Feature::face) {
         const Point n = scaled(cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])));
         return dot(n, minus(x, nearest.point)) < 0 ? times(-1, n) : n;
