@@ -212,11 +212,11 @@ class PIERCE_EXPORT CollisionMesh {
     }
 
     /// A ball of this radius moves in a straight line, its center from `step.from` to `step.to`: when and where does it
-    /// first run into the mesh? `SphereHit` says what that means and what is promised. If the answer is empty the center
-    /// may be moved to `to`, otherwise to the hit's `center`. Where several triangles stop it at the start, the one that
-    /// it overlaps most is named. A radius that is not finite, not a number or not more than 0 makes the query invalid,
-    /// as a coordinate that is not finite does: it has no hit and is counted. `options.sides` is not looked at. Costs
-    /// grow with the number of triangles that come within the radius of the way.
+    /// first run into the mesh? `SphereHit` says what that means and what is promised. If the answer is empty the
+    /// center may be moved to `to`, otherwise to the hit's `center`. Where several triangles stop it at the start, the
+    /// one that it overlaps most is named. A radius that is not finite, not a number or not more than 0 makes the query
+    /// invalid, as a coordinate that is not finite does: it has no hit and is counted. `options.sides` is not looked
+    /// at. Costs grow with the number of triangles that come within the radius of the way.
     [[nodiscard]] std::optional<SphereHit<Scalar>> sweep_sphere(const Segment<Scalar>& step, Scalar radius,
                                                                 const QueryOptions& options = {}) const noexcept;
 

@@ -20,9 +20,10 @@ namespace pierce {
 /// triangle that is no further away than the radius at the start is hit, at fraction 0, if the center comes nearer to
 /// it than it was at the start; if it does not at first it never will (a distance from a convex set along a line is
 /// convex), so a ball that overlaps the mesh may move away or along it, and is stopped only by what it would sink
-/// deeper into. One whose center lies on a triangle may leave it to either side. A step of length zero hits nothing.
-/// A triangle of area zero is no part of the surface. All of it is decided as if in exact arithmetic on the
-/// coordinates and the radius given.
+/// deeper into. That goes for each triangle by itself: one that overlaps a floor of many is stopped by those beside it
+/// as well, and has to be moved out first; `overlap` and `normal` say how. One whose center lies on a triangle may
+/// leave it to either side. A step of length zero hits nothing. A triangle of area zero is no part of the surface. All
+/// of it is decided as if in exact arithmetic on the coordinates and the radius given.
 ///
 /// So what `CollisionMesh::sweep_sphere` promises is this.
 ///  1. No hit is missed: where there is no answer, the center may be moved to `to`, and the ball penetrates nothing on
@@ -31,8 +32,9 @@ namespace pierce {
 ///     same exact rule: sweeping it from `from` to `center` has no hit. So a chain of sweeps of a ball that does not
 ///     overlap at first never overlaps, and never gets through a wall.
 ///  3. `fraction` is no later than the true time of impact, and earlier by at most 2^-21 of the step, or by what moves
-///     the center by 2^-36 of the distance (in one coordinate) of the furthest point of the mesh, whichever is less; and
-///     by its own rounding to Scalar.
+///     the center by 2^-36 of the radius and the distance of the furthest point of the mesh together (in a coordinate),
+///     whichever is less; and by its own rounding to Scalar. Where one of radius, step and mesh is 2^900 times as large
+///     as another, and doubtful, it may be 0.
 /// Which of several triangles that are hit at about the same time is named may depend on roundings, but nothing else:
 /// not on the broadphase, the threads, or the machine.
 ///
@@ -42,10 +44,10 @@ struct SphereHit {
     /// The time of impact, rounded down: 0 where the ball starts in contact and goes in.
     Scalar fraction;
     /// Where to stop the ball: verified, see above. As a rule it is the true place moved a grain off the surface, and
-    /// rounded; a grain is four units in the last place of the largest coordinate there, and in double at least 2^-45 of
-    /// the distance of the triangle's furthest corner from the start. So it need not lie on the
-    /// segment. It is `from` where the ball starts in contact, or so near that nothing is gained. In `sphere_hits` it
-    /// is the place at `fraction`, not verified; in `sphere_contacts` the center given.
+    /// rounded; a grain is four units in the last place of the largest coordinate there, and in double at least 2^-45
+    /// of the distance of the triangle's furthest corner from the start. So it need not lie on the segment. It is
+    /// `from` where the ball starts in contact, or so near that nothing is gained. In `sphere_hits` it is the place at
+    /// `fraction`, not verified; in `sphere_contacts` the center given.
     Coordinates<Scalar> center;
     /// The point of the triangle that is touched, rounded. Not verified.
     Coordinates<Scalar> contact;
@@ -58,8 +60,8 @@ struct SphereHit {
     std::uint32_t face;
     /// The place of the triangle in `MeshView::triangles`.
     std::uint32_t triangle;
-    /// The side of the triangle's plane that the center is on: `front` or `back`. As rounded numbers have it, as is what
-    /// follows.
+    /// The side of the triangle's plane that the center is on: `front` or `back`. As rounded numbers have it, as is
+    /// what follows.
     Sides side;
     /// What of the triangle is touched.
     Feature feature;

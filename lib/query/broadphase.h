@@ -67,8 +67,8 @@ void traverse_grid(const Scene<Scalar>& scene, const ScalarKernels<Scalar>& kern
                    float first_limit, Visit visit, void* self) {
     const Scalar* records = scene.clusters.records.data();
     std::uint64_t cells = 0;
-    // An infinite noise, or NaN in the probe, means all cells. So does one beside which the scene is nothing: differences
-    // of what is so far away say nothing any more.
+    // An infinite noise, or NaN in the probe, means all cells. So does one beside which the scene is nothing:
+    // differences of what is so far away say nothing any more.
     const double noise = probe.noise[0] < 0x1p30 ? probe.noise[0] : std::numeric_limits<double>::infinity();
     scene.grid.visit(
         probe.origin, probe.direction, noise, first_limit, cells, [&](ClusterRef cluster, double limit) -> double {
@@ -81,8 +81,8 @@ void traverse_grid(const Scene<Scalar>& scene, const ScalarKernels<Scalar>& kern
 
 /// Calls `use(cluster, lanes)` for each cluster of which the wide kernels can't refuse all triangles: bits in `lanes`
 /// say which are left. No triangle comes twice. `use` returns the fraction from which on hits are of no use; negative:
-/// none is any more. Nothing is left out that the segment hits, or that a way hits within the noise of `frame` of it, up
-/// to that fraction.
+/// none is any more. Nothing is left out that the segment hits, or that a way hits within the noise of `frame` of it,
+/// up to that fraction.
 template <class Scalar, class Use>
 void each_candidate(const Scene<Scalar>& scene, const Frame& frame, const Path& path, Sides sides, double limit,
                     QueryCounters& counters, Use&& use) {

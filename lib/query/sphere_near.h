@@ -1,10 +1,11 @@
 // The triangles that a thick path may come near: those that the broadphase gives for a path with much noise.
 //
 // Noise is how far off the path, in each coordinate, a way may lead that hits a triangle (set_probe.h); boxes are
-// widened by it, and the test of a cluster allows for it: a way that hits a triangle at X has a point of the path within
-// the noise of X. A sphere that touches a triangle at X has its center, a point of the path, within the radius of X, and
-// that is all that either proof asks for. So with the radius in the noise nothing is left out that the sphere touches,
-// and no kernel needs to know of spheres. The parameter up to which it is asked is that of the center, as it is there.
+// widened by it, and the test of a cluster allows for it: a way that hits a triangle at X has a point of the path
+// within the noise of X. A sphere that touches a triangle at X has its center, a point of the path, within the radius
+// of X, and that is all that either proof asks for. So with the radius in the noise nothing is left out that the sphere
+// touches, and no kernel needs to know of spheres. The parameter up to which it is asked is that of the center, as it
+// is there.
 //
 // What is different is that the noise may be larger than the scene. The bounds of slab_test.h allow for the rounding of
 // numbers up to some scenes; that of a parameter near or far of a slab is 2^-24 of the noise as well, twice, and a
@@ -20,8 +21,8 @@ namespace pierce::detail {
 
 constexpr double k_most_noise = 0x1p98;
 
-/// Calls `use(triangle)`, which returns the fraction from which on triangles are of no use, for each triangle that comes
-/// within `radius` of the path up to there, and some more; each once.
+/// Calls `use(triangle)`, which returns the fraction from which on triangles are of no use, for each triangle that
+/// comes within `radius` of the path up to there, and some more; each once.
 template <class Scalar, class Use>
 void each_near(const Scene<Scalar>& scene, const Path& path, double radius, double limit, QueryCounters& counters,
                Use&& use) {

@@ -44,9 +44,9 @@ struct SphereWays {
 /// The place where `entry` leaves the center. A place at a grain from the surface, away from all that is found in the
 /// way to it; else one further back, and at last the start.
 ///
-/// The grain is four units in the last place, as for points (kernel/first_place.h): a center that is moved along a plane
-/// and rounded comes nearer to it by less. It is no less than four times what the doubles of sphere/enter.cpp are in
-/// doubt about, so that at rest a center is certainly off the surface by them.
+/// The grain is four units in the last place, as for points (kernel/first_place.h): a center that is moved along a
+/// plane and rounded comes nearer to it by less. It is no less than four times what the doubles of sphere/enter.cpp are
+/// in doubt about, so that at rest a center is certainly off the surface by them.
 template <class Scalar>
 [[nodiscard]] Point place_sphere(const SphereWays<Scalar>& ways, const Entry& entry, std::uint64_t& retreats) {
     constexpr int k_pushes = 6;

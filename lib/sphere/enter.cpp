@@ -2,10 +2,10 @@
 //
 // The distance d(t) of the center from the triangle is convex in the time t: each plane that separates the two gives a
 // line below it, and where that is above the radius the way is clear. So from the direction n of the nearest point at
-// one time comes a time up to which the way is clear, the direction there gives the next, and so on: Newton's method for
-// d(t) = r, which from the left never passes the first root of a convex function, and where there is none goes on to
-// where the distance grows. Each step is a proof by itself, whatever n is: what is computed roughly (nearest.h) makes
-// steps shorter, not wrong. (Mirtich 1996, "Impulse-based dynamic simulation", 2.3.2, calls steps of this kind
+// one time comes a time up to which the way is clear, the direction there gives the next, and so on: Newton's method
+// for d(t) = r, which from the left never passes the first root of a convex function, and where there is none goes on
+// to where the distance grows. Each step is a proof by itself, whatever n is: what is computed roughly (nearest.h)
+// makes steps shorter, not wrong. (Mirtich 1996, "Impulse-based dynamic simulation", 2.3.2, calls steps of this kind
 // conservative advancement; his take the greatest speed for the slope.)
 //
 // The proof of a step. x, the a_i and the way w are relative to the start; e = 2^-52 is twice the half unit of a
@@ -20,13 +20,13 @@
 // For D < 0 the way is clear from 0 up to -D / (max(-m, 0) + 16 e W) (1 - 4 e): a sum, a quotient and a product.
 // For m > 16 e W it is from t on for ever if t (m - 16 e W) (1 - 4 e) >= D.
 //
-// A place is certainly nearer than r if |x - y| (1 + 8 e) + 64 e M < r. x = t w is within e of itself; y = a_0 + u (a_1 -
-// a_0) + v (a_2 - a_0) with rounded u, v >= 0 is a point of the triangle but for a sum u + v that is rounded: a
-// component of it is within e/2 M for a_0 and, for each of the others, e (an end each) + e (difference, product) of 2 M,
-// e/2 of 2 M for either sum, e/2 2 M for u + v: in all within 9 e M, of x - y within 11 e M, times sqrt(3) < 20 e M.
+// A place is certainly nearer than r if |x - y| (1 + 16 e) + 64 e M < r. x = t w is within e of itself; y = a_0 + u (a_1
+// - a_0) + v (a_2 - a_0) with rounded u, v >= 0 is a point of the triangle but for a sum u + v that is rounded: a
+// component of it is within e/2 M for a_0 and, for each of the others, e (an end each) + e (difference, product) of 2
+// M, e/2 of 2 M for either sum, e/2 2 M for u + v: in all within 9 e M, of x - y within 11 e M, times sqrt(3) < 20 e M.
 //
-// Underflow loses 2^-1074 an operation: nothing beside e M, as M is at least r / 2 where a step is taken, and r at least
-// 2^-900 (Sphere::tame).
+// Underflow loses 2^-1074 an operation: nothing beside e M, as M is at least r / 4 where a step is taken, and r at
+// least 2^-900 (Sphere::tame).
 #include <sphere/enter.h>
 
 #include <limits>
@@ -127,8 +127,8 @@ void describe(const Sphere& sphere, const Corners& corners, Entry& entry) {
     entry.normal = dot(n, n) > 0 ? unit_of(n) : Point{0, 0, 1};
 }
 
-/// Brings the time at which the sphere enters to within `width` after `entry.time`, up to which the way is clear; false:
-/// it does not enter. In exact arithmetic.
+/// Brings the time at which the sphere enters to within `width` after `entry.time`, up to which the way is clear;
+/// false: it does not enter. In exact arithmetic.
 bool bracket(const Sphere& sphere, const Corners& corners, SphereCounts& counts, Entry& entry) {
     const auto entered = [&](double t) {
         ++counts.exact;

@@ -1,5 +1,6 @@
-// Sweeps of spheres that are hard to judge: aimed at faces, edges and corners, grazing, in contact at the start, inside,
-// with radii much smaller and much larger than the triangles, far away, on a lattice where all of it comes out even.
+// Sweeps of spheres that are hard to judge: aimed at faces, edges and corners, grazing, in contact at the start,
+// inside, with radii much smaller and much larger than the triangles, far away, on a lattice where all of it comes out
+// even.
 #pragma once
 
 #include <Eigen/Geometry>
