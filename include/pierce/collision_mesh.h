@@ -23,6 +23,7 @@
 #include <pierce/passage.h>
 #include <pierce/ray.h>
 #include <pierce/result.h>
+#include <pierce/sphere.h>
 #include <pierce/types.h>
 
 namespace pierce {
@@ -211,6 +212,39 @@ class PIERCE_EXPORT CollisionMesh {
                          const QueryOptions& options = {}, const Executor& executor = {}) const {
         return all_hits_of_rays(rays, offsets, hits, options, executor);
     }
+
+    /// A ball of this radius moves in a straight line, its center from `step.from` to `step.to`: when and where does it
+    /// first run into the mesh? `SphereHit` says what that means and what is promised. If the answer is empty the
+    /// center may be moved to `to`, otherwise to the hit's `center`. Where several triangles stop it at the start, the
+    /// one that it overlaps most is named. A radius that is not finite, not a number or not more than 0 makes the query
+    /// invalid, as a coordinate that is not finite does: it has no hit and is counted. `options.sides` is not looked
+    /// at. Costs grow with the number of triangles that come within the radius of the way.
+    [[nodiscard]] std::optional<SphereHit<Scalar>> sweep_sphere(const Segment<Scalar>& step, Scalar radius,
+                                                                const QueryOptions& options = {}) const noexcept;
+
+    /// The first `out.size()` contacts of the step in order of (fraction, face, triangle), each as if nothing had
+    /// stopped the ball before it; returns how many there are in all. Each contact comes once: an edge or a corner that
+    /// several triangles share is that of one of them, as are triangles that coincide, and it is left out where one of
+    /// its triangles was hit on its face, or before. Takes time in the number of triangles hit times that of those
+    /// around a vertex.
+    std::size_t sphere_hits(const Segment<Scalar>& step, Scalar radius, std::span<SphereHit<Scalar>> out,
+                            const QueryOptions& options = {}) const noexcept;
+
+    /// The same for a ball that does not move: contacts with triangles that are no further from `center` than the
+    /// radius, decided exactly, the deepest first. An edge or a corner is left out where one of its triangles is nearer
+    /// elsewhere.
+    std::size_t sphere_contacts(const Vec3<Scalar>& center, Scalar radius, std::span<SphereHit<Scalar>> out,
+                                const QueryOptions& options = {}) const noexcept;
+
+    /// Many sweeps in one call: answer i is what `sweep_sphere` gives for number i, whatever the executor. All have one
+    /// radius, or each its own. Returns the number of hits. Throws std::invalid_argument where lengths differ, as
+    /// `first_hits`.
+    std::size_t sweep_spheres(const Segments<Scalar>& steps, Scalar radius,
+                              std::span<std::optional<SphereHit<Scalar>>> out, const QueryOptions& options = {},
+                              const Executor& executor = {}) const;
+    std::size_t sweep_spheres(const Segments<Scalar>& steps, std::span<const Scalar> radii,
+                              std::span<std::optional<SphereHit<Scalar>>> out, const QueryOptions& options = {},
+                              const Executor& executor = {}) const;
 
     /// Why each face near the segment is its first hit or is not, in the order of triangles. Near are those whose box
     /// is no further from the segment's, along each axis, than that is long along its longest. For debugging: it looks

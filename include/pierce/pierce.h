@@ -9,6 +9,9 @@
 // batch.h, collision_mesh.h; world.h for many meshes; regions.h for particle transport; result.h for programs without
 // exceptions. <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests
 // for single triangles. <pierce/pierce_c.h> is for programs in C.
+// sphere.h, batch.h, collision_mesh.h; regions.h for particle transport; result.h for programs without exceptions.
+// <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single
+// triangles. <pierce/pierce_c.h> is for programs in C.
 #pragma once
 
 #include <pierce/batch.h>
@@ -23,6 +26,7 @@
 #include <pierce/ray.h>
 #include <pierce/regions.h>
 #include <pierce/result.h>
+#include <pierce/sphere.h>
 #include <pierce/triangle_soup.h>
 #include <pierce/try_read_mesh.h>
 #include <pierce/types.h>

@@ -23,17 +23,23 @@ template <class Scalar>
     return left < 0 ? -1 : up(left / probe.length);
 }
 
-/// Makes a segment ready, and of `limit` a parameter of the probe. False: nothing is hit up to there.
+/// Makes a segment ready, and of `limit` a parameter of the probe. False: nothing is hit up to there. `frame`: the
+/// scene's, or that with more noise.
 template <class Scalar>
-[[nodiscard]] bool make_probe(const Scene<Scalar>& scene, const Path& path, Sides sides, double limit,
-                              Probe<Scalar>& probe, float& up_to) {
+[[nodiscard]] bool make_probe(const Scene<Scalar>& scene, const Frame& frame, const Path& path, Sides sides,
+                              double limit, Probe<Scalar>& probe, float& up_to) {
     const ScalarKernels<Scalar>& kernels = scene.backend->template of<Scalar>();
     const bool front_only = sides == Sides::front;
     const bool back_only = sides == Sides::back;
-    if (!kernels.set_probe(scene.frame, path.from.data(), path.to.data(), path.ray, front_only, back_only, probe))
+    if (!kernels.set_probe(frame, path.from.data(), path.to.data(), path.ray, front_only, back_only, probe))
         return false;
     up_to = parameter(probe, std::min(limit, path.end));
     return up_to >= 0;
+}
+template <class Scalar>
+[[nodiscard]] bool make_probe(const Scene<Scalar>& scene, const Path& path, Sides sides, double limit,
+                              Probe<Scalar>& probe, float& up_to) {
+    return make_probe(scene, scene.frame, path, sides, limit, probe, up_to);
 }
 
 /// Whether many queries can be in flight through a scene: not where there is no tree, or one too deep for that.
@@ -75,15 +81,15 @@ void traverse_grid(const Scene<Scalar>& scene, const ScalarKernels<Scalar>& kern
 
 /// Calls `use(cluster, lanes)` for each cluster of which the wide kernels can't refuse all triangles: bits in `lanes`
 /// say which are left. No triangle comes twice. `use` returns the fraction from which on hits are of no use; negative:
-/// none is any more. Nothing is left out that the segment hits, or that a way within `Scene::near_bound` of it hits, up
-/// to that fraction.
+/// none is any more. Nothing is left out that the segment hits, or that a way hits within the noise of `frame` of it,
+/// up to that fraction.
 template <class Scalar, class Use>
-void each_candidate(const Scene<Scalar>& scene, const Path& path, Sides sides, double limit, QueryCounters& counters,
-                    Use&& use) {
+void each_candidate(const Scene<Scalar>& scene, const Frame& frame, const Path& path, Sides sides, double limit,
+                    QueryCounters& counters, Use&& use) {
     if (scene.empty()) return;
     Probe<Scalar> probe;
     float first_limit = 0;
-    if (!make_probe(scene, path, sides, limit, probe, first_limit)) return;
+    if (!make_probe(scene, frame, path, sides, limit, probe, first_limit)) return;
     struct Context {
         const Scene<Scalar>& scene;
         const Probe<Scalar>& probe;
@@ -103,6 +109,12 @@ void each_candidate(const Scene<Scalar>& scene, const Path& path, Sides sides, d
         kernels.traverse(scene.tree.view(), scene.clusters.records.data(), probe, first_limit, visit, &context);
     counters.nodes += probe.nodes;
     counters.clusters += probe.clusters;
+}
+/// The same with the noise of the scene, which is `Scene::near_bound`.
+template <class Scalar, class Use>
+void each_candidate(const Scene<Scalar>& scene, const Path& path, Sides sides, double limit, QueryCounters& counters,
+                    Use&& use) {
+    each_candidate(scene, scene.frame, path, sides, limit, counters, use);
 }
 
 }  // namespace pierce::detail

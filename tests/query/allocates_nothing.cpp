@@ -54,6 +54,15 @@ void check() {
     expect_none("first_hits of blocks", [&] {
         mesh.first_hits({state.topRows(3), state.middleRows(3, 3)}, hits, options, reversed);
     });
+    std::vector<std::optional<SphereHit<Scalar>>> balls(segments.size());
+    std::array<SphereHit<Scalar>, 4> contacts;
+    expect_none("sweep_spheres", [&] { mesh.sweep_spheres(segments, Scalar(0.01), balls, {}, reversed); });
+    expect_none("spheres", [&] {
+        for (const Segment<Scalar>& segment : segments) {
+            mesh.sphere_hits(segment, Scalar(0.01), contacts);
+            mesh.sphere_contacts(segment.from, Scalar(0.01), contacts);
+        }
+    });
     expect_none("sweeps to plain hits", [&] { mesh.sweeps(segments, plain, options, reversed); });
     expect_none("first_hits to arrays", [&] { mesh.first_hits(segments, arrays, options, reversed); });
     std::array<Hit<Scalar>, 8> all;

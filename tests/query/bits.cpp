@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 #include <pierce/collision_mesh.h>
 #include <pierce/regions.h>
@@ -28,6 +29,13 @@ TriangleSoup<double> splinters(std::uint32_t count, std::uint64_t seed) {
         add_triangle(soup, a, a + along, a + part * along + across);
     }
     return soup;
+}
+
+template <class Scalar>
+void add_sphere(Hash& hash, const SphereHit<Scalar>& hit) {
+    std::array<std::uint32_t, sizeof hit / 4> words;
+    std::memcpy(words.data(), &hit, sizeof hit);
+    for (const std::uint32_t word : words) hash.add(word);
 }
 
 template <class Scalar>
@@ -68,6 +76,12 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
             hash.add(passages[k].face_count);
             hash.add(std::bit_cast<Whole>(passages[k].fraction));
         }
+        const auto radius = static_cast<Scalar>(scale * (beyond < 0.5 ? 0.01 : 0.3));
+        if (const auto hit = mesh.sweep_sphere(segment, radius)) add_sphere(hash, *hit);
+        std::array<SphereHit<Scalar>, 4> contacts;
+        const std::size_t touching = mesh.sphere_contacts(segment.to, radius, contacts);
+        hash.add(touching);
+        for (std::size_t k = 0; k < std::min(touching, contacts.size()); ++k) add_sphere(hash, contacts[k]);
         hash.add(static_cast<std::uint64_t>(mesh.locate(soup.positions[t[0]]).face_count));
     }
     std::vector<FaceRegions> labels;
