@@ -30,6 +30,10 @@ namespace pierce {
 template <class Scalar>
 class Regions;
 
+namespace detail {
+struct Inside;
+}
+
 /// What was built, and what was odd about it. Bytes are those the library holds, all of them counted.
 struct MeshStatistics {
     std::size_t vertices = 0;
@@ -241,6 +245,7 @@ class PIERCE_EXPORT CollisionMesh {
                                  const QueryOptions& options, const Executor& executor) const;
 
     friend class Regions<Scalar>;
+    friend struct detail::Inside;  // for rooms that stand on the queries (lib/query/inside.h)
 
     struct PIERCE_HIDDEN Impl;
     struct PIERCE_HIDDEN Release {

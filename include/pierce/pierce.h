@@ -6,7 +6,8 @@
 //       particle = hit->point;                                  // safe to stand on, safe to step from
 //
 // Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, ray.h, location.h, passage.h,
-// batch.h, collision_mesh.h; regions.h for particle transport; result.h for programs without exceptions.
+// batch.h, collision_mesh.h; response.h for what a particle does after a hit; regions.h for particle transport; result.h
+// for programs without exceptions.
 // <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single
 // triangles. <pierce/pierce_c.h> is for programs in C.
 #pragma once
@@ -22,6 +23,7 @@
 #include <pierce/passage.h>
 #include <pierce/ray.h>
 #include <pierce/regions.h>
+#include <pierce/response.h>
 #include <pierce/result.h>
 #include <pierce/triangle_soup.h>
 #include <pierce/try_read_mesh.h>

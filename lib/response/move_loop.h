@@ -1,0 +1,166 @@
+// The loop of a move: step until something is met, turn the velocity, aim along it, go on with the time that is left.
+//
+// Why it ends, and keeps its way: at one place each query either ends the move or meets a plane that was not met there
+// before, since the target is certainly in front of those that were; where no target is certain, the next hit on a plane
+// that was met already ends the move. And from place to place time goes on. (`max_casts` is for ways that cross many
+// folds.) A particle that is in contact already does not go to the hit's point first: that would take it along the
+// plane by roundings that all have the direction of the normal, and would move what rests.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include <pierce/response.h>
+#include <query/ways.h>
+#include <response/aim.h>
+
+namespace pierce::detail {
+
+template <class Scalar, class Cast>
+class MoveLoop {
+  public:
+    /// `bounces`: all of `Response` counts; else its velocity only.
+    MoveLoop(const Cast& cast, const MoveOptions<Scalar>& options, bool bounces,
+             std::span<MoveContact<Scalar>> contacts)
+        : cast_(cast), options_(options), bounces_(bounces), contacts_(contacts) {}
+
+    [[nodiscard]] Move<Scalar> run(const Vec3<Scalar>& position, const Vec3<Scalar>& velocity, Scalar seconds) {
+        move_.position = position;
+        move_.velocity = velocity;
+        move_.travel.setZero();
+        move_.remainder.setZero();
+        if (!are_finite(position, velocity) || !(seconds >= 0) || !std::isfinite(seconds)) return invalid();
+        start_ = place_ = to_point(position);
+        // Velocities by a power of two, so that squares stay in range.
+        const double most = static_cast<double>(velocity.cwiseAbs().maxCoeff());
+        scale_ = most > 0 ? std::ldexp(1.0, std::clamp(std::ilogb(most), -1000, 1000)) : 1;
+        velocity_ = arrived_ = times(1 / scale_, to_point(velocity));
+        left_ = static_cast<double>(seconds);
+        while (!(velocity_ == Point{})) {
+            Point target{};
+            certain_ = aim<Scalar>(cast_, place_, times(left_ * scale_, velocity_), planes(), target);
+            if (!are_finite(target)) return invalid();
+            if (target == place_) break;  // less than rounding
+            if (move_.casts >= options_.max_casts) {
+                blocked_ = true;
+                break;
+            }
+            ++move_.casts;
+            typename Cast::Stop stop;
+            if (!cast_.meet(place_, target, 1 - left_ / static_cast<double>(seconds), stop)) {
+                place_ = target;
+                break;
+            }
+            if (!meet(stop, static_cast<double>(seconds))) {
+                blocked_ = true;
+                break;
+            }
+        }
+        return finished(position);
+    }
+
+  private:
+    using Surface = typename Cast::Surface;
+    [[nodiscard]] std::span<const Plane<Surface>> planes() const { return {planes_.data(), count_}; }
+
+    // False: it can't go on.
+    [[nodiscard]] bool meet(const typename Cast::Stop& stop, double) {
+        if (!stop.in_contact) go_to(stop);
+        for (std::size_t i = 0; i < count_; ++i)
+            if (planes_[i].triangle == stop.triangle) return false;
+        MoveContact<Scalar> contact = contact_of(stop);
+        const Response<Scalar> response = options_.response_at ? options_.response_at(contact) : options_.response;
+        Wall wall{stop.normal, times(1 / scale_, to_point(response.velocity))};
+        if (bounces_) wall.friction = std::max(static_cast<double>(response.friction), 0.0);
+        const double speed = wall.least() - dot_product(velocity_, stop.normal);
+        contact.speed = static_cast<Scalar>(speed * scale_);
+        if (move_.contacts < contacts_.size()) contacts_[move_.contacts] = contact;
+        ++move_.contacts;
+        if (count_ == k_most_planes) {
+            velocity_ = {};
+            held_ = 3;
+            return false;
+        }
+        planes_[count_] = {stop.normal, stop.height, stop.surface, stop.triangle};
+        walls_[count_++] = wall;
+        if (bounces_ && response.restitution > 0 && speed * scale_ > static_cast<double>(response.rest_speed))
+            arrived_ = bounced(velocity_, wall, static_cast<double>(response.restitution));
+        velocity_ = resolved({walls_.data(), count_}, arrived_, k_alike<Scalar>, held_);
+        return true;
+    }
+
+    void go_to(const typename Cast::Stop& stop) {
+        left_ *= 1 - stop.fraction;
+        const Point way = difference_of(stop.point, place_);
+        if (way == Point{}) return;
+        place_ = stop.point;
+        arrived_ = velocity_;
+        // Planes that it left behind hold it no more.
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < count_; ++i) {
+            Plane<Surface> plane = planes_[i];
+            plane.height += dot_product(plane.normal, way);
+            if (!(plane.height <= k_contact_grains * cast_.grain()) ||
+                !cast_.is_near(plane.surface, place_, plane.normal))
+                continue;
+            planes_[kept] = plane;
+            walls_[kept++] = walls_[i];
+        }
+        count_ = kept;
+    }
+
+    [[nodiscard]] MoveContact<Scalar> contact_of(const typename Cast::Stop& stop) const {
+        MoveContact<Scalar> contact{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            contact.point[k] = static_cast<Scalar>(place_[k]);
+            contact.normal[k] = static_cast<Scalar>(stop.normal[k]);
+        }
+        contact.seconds = static_cast<Scalar>(left_);
+        contact.face = stop.face;
+        contact.triangle = stop.triangle;
+        contact.side = stop.surface.side > 0 ? Sides::front : Sides::back;
+        return contact;
+    }
+
+    [[nodiscard]] Move<Scalar> invalid() {
+        move_.state = MoveState::invalid;
+        move_.contacts = 0;
+        return move_;
+    }
+    [[nodiscard]] Move<Scalar> finished(const Vec3<Scalar>& position) {
+        for (int k = 0; k < 3; ++k) {
+            const auto i = static_cast<std::size_t>(k);
+            move_.position[k] = static_cast<Scalar>(place_[i]);
+            move_.velocity[k] = move_.contacts > 0 ? static_cast<Scalar>(scale_ * velocity_[i]) : move_.velocity[k];
+            move_.travel[k] = move_.position[k] - position[k];
+            if (blocked_) move_.remainder[k] = static_cast<Scalar>(left_ * scale_ * velocity_[i]);
+        }
+        if (move_.contacts == 0) return move_;
+        move_.state = MoveState::slid;
+        if (velocity_ == Point{})
+            move_.state = held_ >= 3 ? MoveState::wedged : MoveState::resting;
+        else if (blocked_ && place_ == start_)
+            move_.state = MoveState::wedged;
+        return move_;
+    }
+
+    const Cast& cast_;
+    const MoveOptions<Scalar>& options_;
+    bool bounces_;
+    std::span<MoveContact<Scalar>> contacts_;
+    Move<Scalar> move_;
+    Point start_{};
+    Point place_{};
+    double scale_ = 1;  ///< of velocities: those below times this are the caller's
+    Point velocity_{};
+    Point arrived_{};  ///< the velocity with which it came to the place, or bounced there
+    double left_ = 0;  ///< seconds
+    std::array<Plane<Surface>, k_most_planes> planes_;  ///< of the place
+    std::array<Wall, k_most_planes> walls_;             ///< the same
+    std::size_t count_ = 0;
+    int held_ = 0;  ///< by how many of them
+    bool certain_ = true;
+    bool blocked_ = false;
+};
+
+}  // namespace pierce::detail
