@@ -53,8 +53,9 @@ struct Response {
     Scalar friction = 0;
     /// That of the surface where it is met: of a conveyor, or of a wall that moves (the mesh itself stands still).
     Vec3<Scalar> velocity = Vec3<Scalar>::Zero();
-    /// An approach at this speed or a lower one does not bounce. At 0 a particle under gravity bounces for ever, ever
-    /// lower: twice gravity times the step is usual.
+    /// An approach at this speed or a lower one does not bounce. Where gravity is added once a step, a bounce gets up to
+    /// twice g times the step on top of what it should have, so at 0 a particle bounces for ever, and at that divided by
+    /// 1 - `restitution` or more it comes to rest.
     Scalar rest_speed = 0;
 };
 

@@ -31,14 +31,13 @@ struct Plane {
     std::uint32_t triangle;
 };
 
-/// From `from` by `way`, rounded to Scalar. False where no such point is certain: then it is where it would be without
-/// planes.
+/// From `from` by `way`, rounded to Scalar. Where no such point is certain it is where it would be without planes.
 template <class Scalar, class Cast>
-[[nodiscard]] bool aim(const Cast& cast, const Point& from, const Point& way,
-                       std::span<const Plane<typename Cast::Surface>> planes, Point& target) {
+void aim(const Cast& cast, const Point& from, const Point& way, std::span<const Plane<typename Cast::Surface>> planes,
+         Point& target) {
     const Point end = plus(from, 1, way);
     target = rounded_to<Scalar>(end);
-    if (planes.empty()) return true;
+    if (planes.empty()) return;
     const double unit = cast.grain() / k_grain_units;
     std::array<double, HalfSpaces::k_most> least{};
     for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -63,9 +62,8 @@ template <class Scalar, class Cast>
         }
         if (!in_front) continue;
         target = lifted;
-        return true;
+        return;
     }
-    return false;
 }
 
 }  // namespace pierce::detail

@@ -36,25 +36,20 @@ class MoveLoop {
         scale_ = most > 0 ? std::ldexp(1.0, std::clamp(std::ilogb(most), -1000, 1000)) : 1;
         velocity_ = arrived_ = times(1 / scale_, to_point(velocity));
         left_ = static_cast<double>(seconds);
-        while (!(velocity_ == Point{})) {
-            Point target{};
-            certain_ = aim<Scalar>(cast_, place_, times(left_ * scale_, velocity_), planes(), target);
+        total_ = left_;
+        while (!(velocity_ == Point{}) && !blocked_) {
+            const Point way = times(left_ * scale_, velocity_);
+            if (!are_finite(plus(place_, 1, way))) return invalid();
+            if (feels(way)) continue;
+            const Point target = aimed(way);
             if (!are_finite(target)) return invalid();
-            if (target == place_) break;  // less than rounding
-            if (move_.casts >= options_.max_casts) {
-                blocked_ = true;
-                break;
-            }
-            ++move_.casts;
             typename Cast::Stop stop;
-            if (!cast_.meet(place_, target, 1 - left_ / static_cast<double>(seconds), stop)) {
-                place_ = target;
+            if (blocked_ || target == place_) break;
+            if (!cast(target, stop)) {
+                if (!blocked_) place_ = target;
                 break;
             }
-            if (!meet(stop, static_cast<double>(seconds))) {
-                blocked_ = true;
-                break;
-            }
+            meet(stop);
         }
         return finished(position);
     }
@@ -63,11 +58,42 @@ class MoveLoop {
     using Surface = typename Cast::Surface;
     [[nodiscard]] std::span<const Plane<Surface>> planes() const { return {planes_.data(), count_}; }
 
-    // False: it can't go on.
-    [[nodiscard]] bool meet(const typename Cast::Stop& stop, double) {
+    [[nodiscard]] bool is_met(std::uint32_t triangle) const {
+        return std::any_of(planes().begin(), planes().end(),
+                           [triangle](const Plane<Surface>& plane) { return plane.triangle == triangle; });
+    }
+
+    [[nodiscard]] Point aimed(const Point& way) const {
+        Point target{};
+        aim<Scalar>(cast_, place_, way, planes(), target);
+        return target;
+    }
+    // False: it meets nothing, or `blocked_`: its queries are used up.
+    [[nodiscard]] bool cast(const Point& target, typename Cast::Stop& stop) {
+        blocked_ = move_.casts >= options_.max_casts;
+        if (blocked_) return false;
+        ++move_.casts;
+        return cast_.meet(place_, target, 1 - left_ / total_, stop);
+    }
+    // A way that is shorter than the distance of contacts may end before what the particle rests on: it would be free
+    // until it has fallen as far, and rest again. So what it is in contact with is looked for further on.
+    [[nodiscard]] bool feels(const Point& way) {
+        const double furthest = 2 * k_contact_grains * cast_.grain();
+        const double length = length_of(way);
+        if (!(length < furthest)) return false;
+        // (A length that underflows is of no way at all, as a rule.)
+        const Point target = length > 0 ? aimed(times(furthest / length, way)) : place_;
+        typename Cast::Stop stop;
+        if (!are_finite(target) || target == place_ || !cast(target, stop)) return false;
+        if (!stop.in_contact || is_met(stop.triangle)) return false;
+        meet(stop);
+        return true;
+    }
+
+    void meet(const typename Cast::Stop& stop) {
         if (!stop.in_contact) go_to(stop);
-        for (std::size_t i = 0; i < count_; ++i)
-            if (planes_[i].triangle == stop.triangle) return false;
+        blocked_ = is_met(stop.triangle);
+        if (blocked_) return;
         MoveContact<Scalar> contact = contact_of(stop);
         const Response<Scalar> response = options_.response_at ? options_.response_at(contact) : options_.response;
         Wall wall{stop.normal, times(1 / scale_, to_point(response.velocity))};
@@ -79,14 +105,13 @@ class MoveLoop {
         if (count_ == k_most_planes) {
             velocity_ = {};
             held_ = 3;
-            return false;
+            return;
         }
         planes_[count_] = {stop.normal, stop.height, stop.surface, stop.triangle};
         walls_[count_++] = wall;
         if (bounces_ && response.restitution > 0 && speed * scale_ > static_cast<double>(response.rest_speed))
             arrived_ = bounced(velocity_, wall, static_cast<double>(response.restitution));
         velocity_ = resolved({walls_.data(), count_}, arrived_, k_alike<Scalar>, held_);
-        return true;
     }
 
     void go_to(const typename Cast::Stop& stop) {
@@ -153,13 +178,13 @@ class MoveLoop {
     Point place_{};
     double scale_ = 1;  ///< of velocities: those below times this are the caller's
     Point velocity_{};
-    Point arrived_{};  ///< the velocity with which it came to the place, or bounced there
-    double left_ = 0;  ///< seconds
+    Point arrived_{};   ///< the velocity with which it came to the place, or bounced there
+    double left_ = 0;   ///< seconds
+    double total_ = 0;  ///< of the move
     std::array<Plane<Surface>, k_most_planes> planes_;  ///< of the place
     std::array<Wall, k_most_planes> walls_;             ///< the same
     std::size_t count_ = 0;
     int held_ = 0;  ///< by how many of them
-    bool certain_ = true;
     bool blocked_ = false;
 };
 

@@ -91,8 +91,8 @@ std::size_t move_all(const char* call, const CollisionMesh<Scalar>& mesh, const 
             for (std::size_t i = first; i < last; ++i) {
                 out[i] = move_of(impl.scene, positions[i], velocities[i], seconds, options, bounces,
                                  contacts.subspan(i * room, room), counters);
-                met += out[i].contacts > 0 ? 1 : 0;
-                invalid += out[i].state == MoveState::invalid ? 1 : 0;
+                if (out[i].contacts > 0) ++met;
+                if (out[i].state == MoveState::invalid) ++invalid;
             }
             return met;
         });

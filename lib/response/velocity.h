@@ -94,16 +94,20 @@ class Resolver {
         }
         // Walls that close in on it from all sides: it goes with the last one.
         if (!found_) held_ = {walls_.back().velocity, 3, {}, {}};
-        for (int i = 0; i < held_.count && held_.count < 3; ++i) {
-            const Point& with = walls_[held_.by[static_cast<std::size_t>(i)]].velocity;
-            if (length_of(difference_of(held_.velocity, with)) <= slack_) held_.velocity = with;
-        }
+        held_.velocity = settled(held_.velocity);
         return held_;
     }
     [[nodiscard]] bool is_free(const Point& velocity) const {
         return std::all_of(walls_.begin(), walls_.end(), [&](const Wall& wall) {
             return dot_product(wall.normal, velocity) - wall.least() >= -slack_;
         });
+    }
+
+    /// What goes with a wall, but for rounding, goes with it: what rests is at rest.
+    [[nodiscard]] Point settled(const Point& velocity) const {
+        for (const Wall& wall : walls_)
+            if (length_of(difference_of(velocity, wall.velocity)) <= slack_) return wall.velocity;
+        return velocity;
     }
 
   private:
@@ -166,7 +170,8 @@ class Resolver {
 /// The nearest velocity, less what friction takes: of its part along what holds it, seen from there, up to the sum of
 /// each wall's friction times its push. `held`: by how many walls it is.
 [[nodiscard]] inline Point resolved(std::span<const Wall> walls, const Point& velocity, double alike, int& held) {
-    const Resolver::Held nearest = Resolver(walls, velocity, alike).nearest();
+    Resolver resolver(walls, velocity, alike);
+    const Resolver::Held nearest = resolver.nearest();
     held = nearest.count;
     if (held == 0 || held >= 3) return nearest.velocity;
     double most = 0;
@@ -187,10 +192,10 @@ class Resolver {
         const Point crease = cross_product(walls[nearest.by[0]].normal, walls[nearest.by[1]].normal);
         along = times(dot_product(seen, crease) / dot_product(crease, crease), crease);
     }
-    const Point slowed = taken_off(nearest.velocity, along, most);
-    // A conveyor may have pushed it into another wall.
+    const Point slowed = resolver.settled(taken_off(nearest.velocity, along, most));
+    if (resolver.is_free(slowed)) return slowed;
+    // A conveyor has pushed it into another wall.
     Resolver again(walls, slowed, alike);
-    if (again.is_free(slowed)) return slowed;
     const Resolver::Held last = again.nearest();
     held = last.count;
     return last.velocity;

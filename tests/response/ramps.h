@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <gtest/gtest.h>
 #include <pierce/response.h>
 #include <support/expect_hit.h>
 #include <support/meshes.h>
@@ -12,6 +13,7 @@
 namespace pierce::test {
 
 using V = Vec3<double>;
+using Both = ::testing::Types<float, double>;
 
 inline double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
