@@ -8,6 +8,8 @@
 // the planes that it is behind of ask for more, twice as much each time.
 //
 // Not lifted unless it has to be: each lift is rounded, and what is rounded in the same direction step by step adds up.
+// Heights go up and down by rounding, so that after some hundred steps the particle would be too far off for a contact;
+// then it would go to the hit's point, and in a valley begin to swing. So it is lowered where it is two grains off.
 #pragma once
 
 #include <algorithm>
@@ -35,14 +37,18 @@ struct Plane {
 template <class Scalar, class Cast>
 void aim(const Cast& cast, const Point& from, const Point& way, std::span<const Plane<typename Cast::Surface>> planes,
          Point& target) {
-    const Point end = plus(from, 1, way);
-    target = rounded_to<Scalar>(end);
+    target = rounded_to<Scalar>(plus(from, 1, way));
     if (planes.empty()) return;
     const double unit = cast.grain() / k_grain_units;
+    Point lowered = way;
+    for (const Plane<typename Cast::Surface>& plane : planes)
+        if (plane.height > 2 * cast.grain() && dot_product(plane.normal, way) < cast.grain())
+            lowered = plus(lowered, cast.grain() - plane.height, plane.normal);
+    const Point end = plus(from, 1, lowered);
     std::array<double, HalfSpaces::k_most> least{};
     for (std::size_t i = 0; i < planes.size(); ++i) {
         // In units. The way that rounding takes is not part of it.
-        const double height = (planes[i].height + dot_product(planes[i].normal, way)) / unit;
+        const double height = (planes[i].height + dot_product(planes[i].normal, lowered)) / unit;
         least[i] = (height < k_grain_units / 2 ? k_grain_units : k_grain_units / 2) - height;
     }
     constexpr double k_furthest = 64;

@@ -1,8 +1,8 @@
 // The loop of a move: step until something is met, turn the velocity, aim along it, go on with the time that is left.
 //
 // Why it ends, and keeps its way: at one place each query either ends the move or meets a plane that was not met there
-// before, since the target is certainly in front of those that were; where no target is certain, the next hit on a plane
-// that was met already ends the move. And from place to place time goes on. (`max_casts` is for ways that cross many
+// before, since the target is certainly in front of those that were; where no target is certain, the next hit on a
+// plane that was met already ends the move. And from place to place time goes on. (`max_casts` is for ways that cross many
 // folds.) A particle that is in contact already does not go to the hit's point first: that would take it along the
 // plane by roundings that all have the direction of the normal, and would move what rests.
 #pragma once
@@ -113,12 +113,19 @@ class MoveLoop {
             bounces_ && response.restitution > 0 && speed * scale_ > static_cast<double>(response.rest_speed);
         if (bounces) arrived_ = bounced(velocity_, wall, static_cast<double>(response.restitution));
         velocity_ = resolved({walls_.data(), count_}, arrived_, k_alike<Scalar>, held_);
-        // Folds that it met one after the other have turned it round: in the corner of three planes whose angles are
-        // wide it would go from side to side for ever, step by step (Quake's rule of 1996).
         turned_on_ = turned_on_ || bounces || !(wall.velocity == Point{});
-        if (turned_on_ || dot_product(velocity_, began_) > 0) return;
-        if (!(velocity_ == Point{})) held_ = 3;
+        if (met_count_ < met_.size()) met_[met_count_++] = wall;
+        if (!turned_on_ && dot_product(velocity_, began_) <= 0) stop_if_caught();
+    }
+
+    // It was turned round, by planes that it met one after the other. If all of them together stop what it began with,
+    // they do so here: in the corner of planes at wide angles it would go from side to side for ever, a step each way.
+    // (Quake, 1996, stops all that is turned round.)
+    void stop_if_caught() {
+        const Resolver::Held all = Resolver({met_.data(), met_count_}, began_, k_alike<Scalar>).nearest();
+        if (!(all.velocity == Point{})) return;
         velocity_ = {};
+        held_ = std::max(held_, all.count);
     }
 
     void go_to(const typename Cast::Stop& stop) {
@@ -193,6 +200,8 @@ class MoveLoop {
     std::array<Plane<Surface>, k_most_planes> planes_;  ///< of the place
     std::array<Wall, k_most_planes> walls_;             ///< the same
     std::size_t count_ = 0;
+    std::array<Wall, k_most_planes> met_;  ///< in this move, at any place: the first ones
+    std::size_t met_count_ = 0;
     int held_ = 0;  ///< by how many of them
     bool blocked_ = false;
 };
