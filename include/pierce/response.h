@@ -159,6 +159,17 @@ template <class Scalar>
     const std::type_identity_t<MoveOptions<Scalar>>& options = {},
     std::type_identity_t<std::span<MoveContact<Scalar>>> contacts = {}) noexcept;
 
+/// Where to draw a particle that touches something, for looks: `position` moved off the planes of the first `k_most_planes`
+/// contacts of its last move to a distance of `skin`, within a hundredth or so, or as far that way as nothing is hit. Not
+/// to be moved on from: what is drawn is no part of the motion, which needs no skin. A `skin` that is not above 0 or not
+/// finite, and planes that leave no such place within eight skins, give `position`.
+template <class Scalar>
+[[nodiscard]] PIERCE_EXPORT Vec3<Scalar> lifted(const CollisionMesh<Scalar>& mesh,
+                                                const std::type_identity_t<Vec3<Scalar>>& position,
+                                                std::type_identity_t<std::span<const MoveContact<Scalar>>> contacts,
+                                                std::type_identity_t<Scalar> skin,
+                                                const QueryOptions& options = {}) noexcept;
+
 /// Many particles in one call: `out[i]` is what the single call for number i gives, to the last bit, whatever the
 /// executor. `out` may hold the positions and velocities that are read (`PointsView(&out[0].position[0], n,
 /// sizeof(Move))`). Returns how many met something. If `contacts` is not empty, its first part of

@@ -115,7 +115,7 @@ class MoveLoop {
         velocity_ = resolved({walls_.data(), count_}, arrived_, k_alike<Scalar>, held_);
         turned_on_ = turned_on_ || bounces || !(wall.velocity == Point{});
         if (met_count_ < met_.size()) met_[met_count_++] = wall;
-        if (!turned_on_ && dot_product(velocity_, began_) <= 0) stop_if_caught();
+        if (!turned_on_ && dot_product(velocity_, began_) <= 0 && !(velocity_ == Point{})) stop_if_caught();
     }
 
     // It was turned round, by planes that it met one after the other. If all of them together stop what it began with,

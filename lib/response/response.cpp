@@ -61,6 +61,19 @@ template <class Scalar>
 }
 
 template <class Scalar>
+[[gnu::noinline]] Vec3<Scalar> lifted_from(const Vec3<Scalar>& position, std::span<const MoveContact<Scalar>> contacts,
+                                           Scalar skin) {
+    if (!(skin > 0) || !std::isfinite(skin)) return position;
+    HalfSpaces spaces;
+    for (const MoveContact<Scalar>& contact : contacts)
+        if (!spaces.full()) spaces.push({to_point(contact.normal.vec()), 1});
+    Point lift{};
+    constexpr double k_furthest = 8;
+    if (!spaces.nearest(k_furthest, lift)) return position;
+    return to_vector<Scalar>(1, plus(to_point(position), static_cast<double>(skin), lift));
+}
+
+template <class Scalar>
 Move<Scalar> move(const CollisionMesh<Scalar>& mesh, const Vec3<Scalar>& position, const Vec3<Scalar>& velocity,
                   Scalar seconds, const MoveOptions<Scalar>& options, bool bounces,
                   std::span<MoveContact<Scalar>> contacts) {
@@ -138,6 +151,17 @@ Move<Scalar> move_and_bounce(const CollisionMesh<Scalar>& mesh, const std::type_
 }
 
 template <class Scalar>
+Vec3<Scalar> lifted(const CollisionMesh<Scalar>& mesh, const std::type_identity_t<Vec3<Scalar>>& position,
+                    std::type_identity_t<std::span<const MoveContact<Scalar>>> contacts,
+                    std::type_identity_t<Scalar> skin, const QueryOptions& options) noexcept {
+    const StandardArithmetic standard;
+    const Vec3<Scalar> target = lifted_from<Scalar>(position, contacts, skin);
+    if (!is_valid(Segment<Scalar>{position, target})) return position;
+    const auto hit = mesh.first_hit({position, target}, options);
+    return hit ? hit->point.vec() : target;
+}
+
+template <class Scalar>
 std::size_t moves_and_slide(const CollisionMesh<Scalar>& mesh,
                             const std::type_identity_t<PointsView<Scalar>>& positions,
                             const std::type_identity_t<PointsView<Scalar>>& velocities,
@@ -169,6 +193,8 @@ std::size_t moves_and_bounce(const CollisionMesh<Scalar>& mesh,
     template Move<Scalar> move_and_bounce(const CollisionMesh<Scalar>&, const Vec3<Scalar>&, const Vec3<Scalar>&,      \
                                           Scalar, const MoveOptions<Scalar>&,                                          \
                                           std::span<MoveContact<Scalar>>) noexcept;                                    \
+    template Vec3<Scalar> lifted(const CollisionMesh<Scalar>&, const Vec3<Scalar>&,                                    \
+                                 std::span<const MoveContact<Scalar>>, Scalar, const QueryOptions&) noexcept;          \
     template std::size_t moves_and_slide(const CollisionMesh<Scalar>&, const PointsView<Scalar>&,                      \
                                          const PointsView<Scalar>&, Scalar, std::span<Move<Scalar>>,                   \
                                          const MoveOptions<Scalar>&, const Executor&, std::span<MoveContact<Scalar>>); \

@@ -82,6 +82,10 @@ class Resolver {
 
     [[nodiscard]] Held nearest() {
         if (is_free(velocity_)) return {velocity_, 0, {}, {}};
+        if (walls_.size() == 1) {  // nearly all there are
+            const double push = lack(0);
+            return {settled(plus(velocity_, push, walls_[0].normal)), 1, {0}, {push}};
+        }
         for (std::size_t i = 0; i < walls_.size(); ++i) try_one(i);
         for (std::size_t i = 0; i < walls_.size(); ++i)
             for (std::size_t j = i + 1; j < walls_.size(); ++j) try_two(i, j);

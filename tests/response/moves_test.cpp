@@ -116,6 +116,39 @@ TYPED_TEST(Moves, friction_is_that_of_coulomb) {
             }
 }
 
+// In a groove whose sides rise by b each of them pushes with g cos(a) / (2 cos(b)).
+TYPED_TEST(Moves, friction_in_a_groove_is_that_of_both_sides) {
+    using Scalar = TypeParam;
+    const double a = radians(40);
+    const double friction = 0.3;
+    for (const double rise : {30.0, 60.0}) {
+        const double b = radians(rise);
+        const V down(std::cos(a), 0, -std::sin(a));
+        const V up(std::sin(a), 0, std::cos(a));
+        const V left = std::cos(b) * V::UnitY() + std::sin(b) * up;
+        const V right = -std::cos(b) * V::UnitY() + std::sin(b) * up;
+        TriangleSoup<Scalar> soup;
+        add_floor<Scalar>(soup, -10 * down, down, left, 10, 4);
+        add_floor<Scalar>(soup, -10 * down, right, down, 10, 4);
+        const CollisionMesh<Scalar> mesh(soup.view());
+        const Vec3<Scalar> start = mesh.sweep({V(0, 0, 1).cast<Scalar>(), V(0, 0, -1).cast<Scalar>()})->point;
+        for (const double f : {friction, 2.0}) {
+            const MoveOptions<Scalar> options{.response = {.friction = Scalar(f)}};
+            const Move<Scalar> end = fall<Scalar>(
+                start, V(0, 0, -9.81), 120, 1.0 / 120,
+                [&](const auto& x, const auto& v, Scalar dt) { return move_and_bounce(mesh, x, v, dt, options); });
+            const double way = (end.position - start).template cast<double>().dot(down);
+            const double acceleration = 9.81 * (std::sin(a) - f * std::cos(a) / std::cos(b));
+            if (f > friction) {
+                EXPECT_EQ(end.state, MoveState::resting);
+                EXPECT_EQ(way, 0);
+            } else {
+                EXPECT_NEAR(way / std::max(acceleration * 121 / 120 / 2, 1e-3), 1, 0.01) << rise;
+            }
+        }
+    }
+}
+
 // In a closed convex box without gravity: with restitution 1 the energy stays, with less each bounce takes its share.
 TYPED_TEST(Moves, bounces_keep_the_energy_that_they_should) {
     using Scalar = TypeParam;
@@ -257,6 +290,27 @@ TYPED_TEST(Moves, say_what_they_met) {
     EXPECT_TRUE(same_bits(move_and_slide(mesh, from, v, Scalar(1), {.query = {.max_fraction = 0.01}}), move));
     // An empty mesh stops nothing.
     EXPECT_EQ(move_and_slide(CollisionMesh<Scalar>(), from, v, Scalar(1)).position, Vec3<Scalar>(from + v));
+}
+
+// Where to draw what touches something: off all that it touches, and never through what is above.
+TYPED_TEST(Moves, lift_for_looks) {
+    using Scalar = TypeParam;
+    const TriangleSoup<Scalar> soup = moved<Scalar>(polycube(1, 1, 2, 1), 1, V(0, 0, 0));
+    const CollisionMesh<Scalar> mesh(soup.view());
+    const MoveOptions<Scalar> options{.query = {.sides = Sides::back}};
+    std::array<MoveContact<Scalar>, 8> contacts;
+    const Move<Scalar> move =
+        move_and_slide(mesh, Vec3<Scalar>(1, 1, 1), Vec3<Scalar>(-3, -4, -5), Scalar(1), options, contacts);
+    ASSERT_EQ(move.contacts, 3U);
+    const auto met = std::span(contacts).first(move.contacts);
+    const Vec3<Scalar> shown = lifted(mesh, move.position, met, Scalar(0.01), options.query);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(double(shown[k]), 0.01, 0.0003);
+    // More than there is room for: it stays inside.
+    const Vec3<Scalar> most = lifted(mesh, move.position, met, Scalar(50), options.query);
+    for (int k = 0; k < 3; ++k) EXPECT_LE(most[k], Scalar(2));
+    EXPECT_EQ(lifted(mesh, move.position, {}, Scalar(0.01), options.query), move.position);
+    EXPECT_EQ(lifted(mesh, move.position, met, Scalar(0), options.query), move.position);
+    EXPECT_EQ(lifted(mesh, move.position, met, std::numeric_limits<Scalar>::quiet_NaN(), options.query), move.position);
 }
 
 TYPED_TEST(Moves, without_a_meaning_move_nothing) {

@@ -22,6 +22,9 @@ struct Scalars<double> {
 };
 
 template <class Scalar>
+constexpr double k_epsilon = static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+
+template <class Scalar>
 class Slides : public ::testing::Test {};
 TYPED_TEST_SUITE(Slides, Both);
 
@@ -221,6 +224,27 @@ TYPED_TEST(Slides, over_a_ridge_are_not_turned_aside) {
             EXPECT_GT(move.position[0] - Scalar(offset), Scalar(5));
             EXPECT_GT(touched, 5);
         }
+}
+
+// Off the end of a platform, and against a wall that leans over: it slides down that, and the platform holds it no more.
+TYPED_TEST(Slides, are_not_held_by_what_they_left_behind) {
+    using Scalar = TypeParam;
+    for (const double offset : Scalars<Scalar>::offsets) {
+        const V middle = offset * V(1, 1, 1);
+        TriangleSoup<Scalar> soup;
+        add_floor<Scalar>(soup, middle + V(-4, -2, 0), V::UnitX(), V::UnitY(), 4, 1);
+        // Its normal is (-1, 0, -1) / sqrt 2.
+        add_floor<Scalar>(soup, middle + V(-1, -4, 3), V::UnitY(), V(1, 0, -1) * std::sqrt(0.5), 8, 1);
+        const CollisionMesh<Scalar> mesh(soup.view());
+        const Vec3<Scalar> from = (middle + V(-1, 0.3, 0.001)).template cast<Scalar>();
+        const Move<Scalar> move = move_and_slide(mesh, from, Vec3<Scalar>(4, 0, Scalar(-0.1)), Scalar(1));
+        const double unit = k_epsilon<Scalar> * (offset + 8);
+        EXPECT_EQ(move.contacts, 2U);
+        // 3 of its 4 to the wall; half of the speed is left along it.
+        EXPECT_NEAR(double(move.velocity[0]), 2, 64 * unit);
+        EXPECT_NEAR(double(move.velocity[2]), -2, 64 * unit);
+        EXPECT_NEAR(double(move.position[2]) - offset, -0.5, 0.01 + 64 * unit);
+    }
 }
 
 }  // namespace
