@@ -10,6 +10,7 @@
 // Not lifted unless it has to be: each lift is rounded, and what is rounded in the same direction step by step adds up.
 // Heights go up and down by rounding, so that after some hundred steps the particle would be too far off for a contact;
 // then it would go to the hit's point, and in a valley begin to swing. So it is lowered where it is two grains off.
+// Where the way is less than rounding nothing is lifted: between two walls the particle would go to and fro.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +39,7 @@ template <class Scalar, class Cast>
 void aim(const Cast& cast, const Point& from, const Point& way, std::span<const Plane<typename Cast::Surface>> planes,
          Point& target) {
     target = rounded_to<Scalar>(plus(from, 1, way));
-    if (planes.empty()) return;
+    if (planes.empty() || target == from) return;
     const double unit = cast.grain() / k_grain_units;
     Point lowered = way;
     for (const Plane<typename Cast::Surface>& plane : planes)
