@@ -53,9 +53,9 @@ struct Response {
     Scalar friction = 0;
     /// That of the surface where it is met: of a conveyor, or of a wall that moves (the mesh itself stands still).
     Vec3<Scalar> velocity = Vec3<Scalar>::Zero();
-    /// An approach at this speed or a lower one does not bounce. Where gravity is added once a step, a bounce gets up to
-    /// twice g times the step on top of what it should have, so at 0 a particle bounces for ever, and at that divided by
-    /// 1 - `restitution` or more it comes to rest.
+    /// An approach at this speed or a lower one does not bounce. Where gravity is added once a step, a bounce gets up
+    /// to twice g times the step on top of what it should have, so at 0 a particle bounces for ever, and at that
+    /// divided by 1 - `restitution` or more it comes to rest.
     Scalar rest_speed = 0;
 };
 
@@ -72,7 +72,8 @@ struct MoveContact {
 };
 
 /// Something that is called with a `MoveContact` and says what the surface does there: a lambda, say, that looks up the
-/// face's material. Kept as `Accept` is; it must depend on the contact only, and must not throw.
+/// face's material. The contact's speed is then that towards a surface at rest. Kept as `Accept` is; the answer must
+/// depend on the contact only, and it must not throw.
 template <class Scalar>
 class ResponseAt {
     using Kept = detail::SmallCallable<Response<Scalar>(const MoveContact<Scalar>&)>;
@@ -131,18 +132,22 @@ struct Move {
 /// The way to `position` has no hit under `options.query`, nor has any part of it, so that a chain of moves can't get
 /// through the mesh, at no distance from the origin and with no skin. Where it slides, each target is a representable
 /// point that is certified, exactly, to lie in front of the planes of all faces that it slides along, as a rule a grain
-/// (`Hit::point`) from them: so no step is eaten by rounding, and a slide keeps its way. What rests is not moved, not by
-/// one bit: the result is then that of the step before, as long as velocity and options are. Particles fed the same
+/// (`Hit::point`) from them: so no step is eaten by rounding, and a slide keeps its way. What rests is not moved, not
+/// by one bit: the result is then that of the step before, as long as velocity and options are. Particles fed the same
 /// velocity in the same place do the same on every machine.
 ///
 /// A face is met where the way goes into it, and the particle is left where it is if that is within four grains of the
-/// face's plane. So a resting particle takes one query for each face that it rests on, and a sliding one another.
+/// face's plane. So a resting particle takes one query for each face that it rests on, and a sliding one another. A way
+/// shorter than eight grains is first looked along for that distance, for what it is in contact with, so slow particles
+/// that are free take two. One that is not to move at all meets nothing and takes none, also where a surface moves.
+/// Without friction nothing stops what swings at the bottom of a fold.
+///
 /// Contacts are written in order to `contacts`, as many as fit. Allocates nothing. Throws nothing.
 ///
 /// Sources: the order of planes, crease and stop are those of Quake's and Quake 3's player movement (id Software 1996,
-/// 1999; the idea only), stop and go on that of K. Fauerby (Improved collision detection and response, 2003). Both keep a
-/// distance from what they hit, and both take planes one after the other; here there is no distance, and the velocity is the
-/// nearest one that goes into no plane, which does not depend on their order.
+/// 1999; the idea only), stop and go on that of K. Fauerby (Improved collision detection and response, 2003). Both keep
+/// a distance from what they hit, and both take planes one after the other; here there is no distance, and the velocity
+/// is the nearest one that goes into no plane, which does not depend on their order.
 template <class Scalar>
 [[nodiscard]] PIERCE_EXPORT Move<Scalar> move_and_slide(
     const CollisionMesh<Scalar>& mesh, const std::type_identity_t<Vec3<Scalar>>& position,
@@ -159,10 +164,10 @@ template <class Scalar>
     const std::type_identity_t<MoveOptions<Scalar>>& options = {},
     std::type_identity_t<std::span<MoveContact<Scalar>>> contacts = {}) noexcept;
 
-/// Where to draw a particle that touches something, for looks: `position` moved off the planes of the first `k_most_planes`
-/// contacts of its last move to a distance of `skin`, within a hundredth or so, or as far that way as nothing is hit. Not
-/// to be moved on from: what is drawn is no part of the motion, which needs no skin. A `skin` that is not above 0 or not
-/// finite, and planes that leave no such place within eight skins, give `position`.
+/// Where to draw a particle that touches something, for looks: `position` moved off the planes of the first
+/// `k_most_planes` contacts of its last move to a distance of `skin`, within a hundredth or so, or as far that way as
+/// nothing is hit. Not to be moved on from: what is drawn is no part of the motion, which needs no skin. A `skin` that
+/// is not above 0 or not finite, and planes that leave no such place within eight skins, give `position`.
 template <class Scalar>
 [[nodiscard]] PIERCE_EXPORT Vec3<Scalar> lifted(const CollisionMesh<Scalar>& mesh,
                                                 const std::type_identity_t<Vec3<Scalar>>& position,

@@ -8,8 +8,8 @@
 
 namespace pierce::detail {
 
-/// How far from a plane a particle may be, in grains, and still be in contact with it. A stopped one is a grain off, and
-/// a place that is looked for near an edge three (k_reach_units); rounding of a few slides adds to that.
+/// How far from a plane a particle may be, in grains, and still be in contact with it. A stopped one is a grain off, or
+/// three where its place was looked for near an edge (k_reach_units); rounding of a few slides adds to that.
 inline constexpr double k_contact_grains = 4;
 
 /// A cast is what a move loop (move_loop.h) is written over; a moving mesh or a sphere's would have the same:

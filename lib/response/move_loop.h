@@ -2,8 +2,8 @@
 //
 // Why it ends, and keeps its way: at one place each query either ends the move or meets a plane that was not met there
 // before, since the target is certainly in front of those that were; where no target is certain, the next hit on a
-// plane that was met already ends the move. And from place to place time goes on. (`max_casts` is for ways that cross many
-// folds.) A particle that is in contact already does not go to the hit's point first: that would take it along the
+// plane that was met already ends the move. And from place to place time goes on. (`max_casts` is for ways that cross
+// many folds.) A particle that is in contact already does not go to the hit's point first: that would take it along the
 // plane by roundings that all have the direction of the normal, and would move what rests.
 #pragma once
 
@@ -95,6 +95,7 @@ class MoveLoop {
         blocked_ = is_met(stop.triangle);
         if (blocked_) return;
         MoveContact<Scalar> contact = contact_of(stop);
+        contact.speed = static_cast<Scalar>(-dot_product(velocity_, stop.normal) * scale_);
         const Response<Scalar> response = options_.response_at ? options_.response_at(contact) : options_.response;
         Wall wall{stop.normal, times(1 / scale_, to_point(response.velocity))};
         if (bounces_) wall.friction = std::max(static_cast<double>(response.friction), 0.0);

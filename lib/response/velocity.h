@@ -59,8 +59,8 @@ inline constexpr double k_alike = 16 * static_cast<double>(std::numeric_limits<S
 ///
 /// It is the projection on a polyhedron, the intersection of half-spaces; so it is unique, and does not depend on the
 /// order of walls (by Gauss's principle of least constraint it is what inelastic contacts without friction do). It lies
-/// on a face of the polyhedron: on none, one, two or three of the planes, and there it is the projection on these. So it
-/// is the nearest of all such projections that go into no wall: 92 at most for eight walls.
+/// on a face of the polyhedron: on none, one, two or three of the planes, and there it is the projection on these. So
+/// it is the nearest of all such projections that go into no wall: 92 at most for eight walls.
 class Resolver {
   public:
     struct Held {

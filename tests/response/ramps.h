@@ -17,8 +17,8 @@ using Both = ::testing::Types<float, double>;
 
 inline double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-/// Squares of `size` in the plane through `at` along the unit vectors `u` and `w`, each cut in two; the front is towards
-/// u x w. Within it, corners are moved about by up to `shift` of a square.
+/// Squares of `size` in the plane through `at` along the unit vectors `u` and `w`, each cut in two; the front is
+/// towards u x w. Within it, corners are moved about by up to `shift` of a square.
 template <class Scalar>
 void add_floor(TriangleSoup<Scalar>& soup, const V& at, const V& u, const V& w, int count, double size,
                double shift = 0) {
@@ -38,6 +38,19 @@ void add_floor(TriangleSoup<Scalar>& soup, const V& at, const V& u, const V& w, 
             soup.triangles.push_back({id(i, k), id(i + 1, k + 1), id(i, k + 1)});
         }
 }
+
+/// Twenty squares of 1 around `middle`.
+template <class Scalar>
+CollisionMesh<Scalar> floor_at(const V& middle, const V& up, double shift = 0.3) {
+    TriangleSoup<Scalar> soup;
+    const V u = up.unitOrthogonal();
+    const V w = up.cross(u);
+    add_floor<Scalar>(soup, middle - 10 * u - 10 * w, u, w, 20, 1, shift);
+    return CollisionMesh<Scalar>(soup.view());
+}
+
+template <class Scalar>
+constexpr double k_epsilon = static_cast<double>(std::numeric_limits<Scalar>::epsilon());
 
 /// `steps` steps of `seconds` under gravity.
 template <class Scalar, class Mover>

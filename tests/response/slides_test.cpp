@@ -22,9 +22,6 @@ struct Scalars<double> {
 };
 
 template <class Scalar>
-constexpr double k_epsilon = static_cast<double>(std::numeric_limits<Scalar>::epsilon());
-
-template <class Scalar>
 class Slides : public ::testing::Test {};
 TYPED_TEST_SUITE(Slides, Both);
 
@@ -226,7 +223,8 @@ TYPED_TEST(Slides, over_a_ridge_are_not_turned_aside) {
         }
 }
 
-// Off the end of a platform, and against a wall that leans over: it slides down that, and the platform holds it no more.
+// Off the end of a platform, and against a wall that leans over: it slides down that, and the platform holds it no
+// more.
 TYPED_TEST(Slides, are_not_held_by_what_they_left_behind) {
     using Scalar = TypeParam;
     for (const double offset : Scalars<Scalar>::offsets) {
