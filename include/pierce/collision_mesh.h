@@ -33,6 +33,10 @@ class Regions;
 template <class Scalar>
 class World;
 
+namespace detail {
+struct Inside;
+}
+
 /// What was built, and what was odd about it. Bytes are those the library holds, all of them counted.
 struct MeshStatistics {
     std::size_t vertices = 0;
@@ -278,6 +282,7 @@ class PIERCE_EXPORT CollisionMesh {
 
     friend class Regions<Scalar>;
     friend class World<Scalar>;
+    friend struct detail::Inside;  // for rooms that stand on the queries (lib/query/inside.h)
 
     struct PIERCE_HIDDEN Impl;
     struct PIERCE_HIDDEN Release {

@@ -10,6 +10,8 @@
 // exceptions. <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests
 // for single triangles. <pierce/pierce_c.h> is for programs in C.
 // sphere.h, batch.h, collision_mesh.h; regions.h for particle transport; result.h for programs without exceptions.
+// batch.h, collision_mesh.h; response.h for what a particle does after a hit; regions.h for particle transport; result.h
+// for programs without exceptions.
 // <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single
 // triangles. <pierce/pierce_c.h> is for programs in C.
 #pragma once
@@ -25,6 +27,7 @@
 #include <pierce/passage.h>
 #include <pierce/ray.h>
 #include <pierce/regions.h>
+#include <pierce/response.h>
 #include <pierce/result.h>
 #include <pierce/sphere.h>
 #include <pierce/triangle_soup.h>

@@ -82,13 +82,28 @@ struct OtherWays {
     }
 };
 
-/// Writes the hit of a candidate, to where the caller wants it: a copy of what was just written number by number would
-/// wait for memory. `passed(triangle)` says which triangles are hit strictly before it, and so on the way to any point
-/// near it. With a complete list of the query's triangles (null: none was kept) nothing else is asked again.
+/// Writes the hit of a candidate whose values are certified, to where the caller wants it: a copy of what was just
+/// written number by number would wait for memory. `passed(triangle)` says which triangles are hit strictly before it,
+/// and so on the way to any point near it. With a complete list of the query's triangles (null: none was kept) nothing
+/// else is asked again.
+template <class Kernel, class Scalar, class Passed>
+void write_answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Values& values,
+                  const Rounded<Scalar>& rounded, const Passed& passed, const QueryOptions& options,
+                  QueryCounters& counters, const Shortlist* list, Hit<Scalar>& hit) {
+    const TriangleRef triangle = candidate.triangle;
+    const std::uint32_t number = scene.number_of(triangle);
+    report(rounded, candidate.decision, scene.face_of_number(number), number, hit);
+    // A limit that is nearer was meant for the caller's own path: ways have none.
+    const OtherWays<Kernel, Scalar, Passed> ways{scene, path, triangle, passed, options, counters, list};
+    const int tries =
+        place(path, candidate.measured, candidate.decision, scene.grain, values, rounded, counters, ways, hit);
+    counters.retreats += static_cast<std::uint64_t>(tries);
+}
+
+/// The same of one whose values are not.
 template <class Kernel, class Scalar, class Passed>
 void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, const Passed& passed,
             const QueryOptions& options, QueryCounters& counters, const Shortlist* list, Hit<Scalar>& hit) {
-    const TriangleRef triangle = candidate.triangle;
     Values values;
     Rounded<Scalar> rounded;
     Kernel::certify(scene, candidate, path, counters, values, rounded);
@@ -98,13 +113,7 @@ void answer(const Scene<Scalar>& scene, const Path& path, const Candidate& candi
         rounded.weights[3] =
             static_cast<Scalar>(std::min(parameter, static_cast<double>(std::numeric_limits<Scalar>::max())));
     }
-    const std::uint32_t number = scene.number_of(triangle);
-    report(rounded, candidate.decision, scene.face_of_number(number), number, hit);
-    // A limit that is nearer was meant for the caller's own path: ways have none.
-    const OtherWays<Kernel, Scalar, Passed> ways{scene, path, triangle, passed, options, counters, list};
-    const int tries =
-        place(path, candidate.measured, candidate.decision, scene.grain, values, rounded, counters, ways, hit);
-    counters.retreats += static_cast<std::uint64_t>(tries);
+    write_answer<Kernel>(scene, path, candidate, values, rounded, passed, options, counters, list, hit);
 }
 
 [[nodiscard]] inline bool none_passed(TriangleRef) { return false; }

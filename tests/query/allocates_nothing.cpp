@@ -5,6 +5,7 @@
 
 #include <pierce/regions.h>
 #include <pierce/world.h>
+#include <pierce/response.h>
 #include <query/batch_world.h>
 #include <support/executors.h>
 #include <support/own_new.h>
@@ -126,6 +127,12 @@ void check() {
             if (regions.walk(segments[i], legs) > 0)
                 sum += regions.cross(segments[i], legs[0]).region + regions.stop(segments[i], legs[0]).region;
         }
+    });
+    std::vector<Move<Scalar>> moves(segments.size());
+    std::vector<MoveContact<Scalar>> contacts(2 * segments.size());
+    expect_none("moves", [&] {
+        moves_and_slide(mesh, points, points, Scalar(1), moves, {}, reversed, contacts);
+        moves_and_bounce(mesh, points, points, Scalar(1), moves, {.response = {.restitution = 1}}, reversed, contacts);
     });
     if (sum == 0 || counters.exact_decisions == 0) {
         std::puts("nothing was decided exactly");

@@ -8,6 +8,7 @@
 #include <pierce/collision_mesh.h>
 #include <pierce/regions.h>
 #include <pierce/world.h>
+#include <pierce/response.h>
 #include <support/hash.h>
 #include <support/meshes.h>
 #include <support/segments.h>
@@ -29,6 +30,31 @@ TriangleSoup<double> splinters(std::uint32_t count, std::uint64_t seed) {
         add_triangle(soup, a, a + along, a + part * along + across);
     }
     return soup;
+}
+
+// Three steps each: the first one runs into something, the others go on from there.
+template <class Scalar>
+void add_moves(Hash& hash, const CollisionMesh<Scalar>& mesh, const std::vector<Segment<Scalar>>& segments) {
+    const MoveOptions<Scalar> options{.query = {.sides = Sides::both},
+                                      .response = {.restitution = Scalar(0.5), .friction = Scalar(0.25)}};
+    for (std::size_t i = 0; i < segments.size(); i += 10) {
+        Move<Scalar> move{};
+        move.position = segments[i].from;
+        move.velocity = segments[i].to - segments[i].from;
+        const Vec3<Scalar> push = move.velocity / 4;
+        for (int step = 0; step < 3; ++step) {
+            const Vec3<Scalar> velocity = step == 0 ? move.velocity : Vec3<Scalar>(move.velocity + push);
+            move = i % 20 == 0 ? move_and_slide(mesh, move.position, velocity, Scalar(1), options)
+                               : move_and_bounce(mesh, move.position, velocity, Scalar(1), options);
+            for (int k = 0; k < 3; ++k) {
+                hash.add(bits(move.position[k]));
+                hash.add(bits(move.velocity[k]));
+                hash.add(bits(move.remainder[k]));
+            }
+            hash.add(move.contacts);
+            hash.add(static_cast<std::uint64_t>(move.state));
+        }
+    }
 }
 
 template <class Scalar>
@@ -100,6 +126,7 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
     std::vector<std::uint8_t> any(segments.size());
     hash.add(mesh.first_hits(segments, first, {.sides = Sides::back}));
     hash.add(mesh.any_hits(segments, any));
+    add_moves(hash, mesh, segments);
     for (const auto& hit : first)
         if (hit) hash.add(*hit);
     for (const std::uint8_t hit : any) hash.add(hit);
