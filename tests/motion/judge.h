@@ -96,7 +96,8 @@ class Sturm {
   public:
     explicit Sturm(const Polynomial& p) {
         chain_ = {p, slope_of(p)};
-        while (!chain_.back().empty()) chain_.push_back(primitive(-divide(chain_[chain_.size() - 2], chain_.back()).second));
+        while (!chain_.back().empty())
+            chain_.push_back(primitive(-divide(chain_[chain_.size() - 2], chain_.back()).second));
         chain_.pop_back();
     }
     int roots(const mpq_class& a, const mpq_class& b) const { return changes(a) - changes(b); }
@@ -201,7 +202,7 @@ struct Judgement {
     Feature feature = Feature::face;
     int index = 0;
     Time time;
-    int roots = 0;            ///< of f in [0, 1]
+    int roots = 0;  ///< of f in [0, 1]
     bool always_in_plane = false;
 };
 
@@ -292,7 +293,8 @@ class Judge {
     static bool counts(Contact contact, bool start, bool end, int before, int after, Feature feature) {
         const bool border = feature != Feature::face;
         switch (contact) {
-            case Contact::closed: return true;
+            case Contact::closed:
+                return true;
             case Contact::front:
                 if (start || end) return start && after < 0;
                 return (before > 0 && after < 0) || (border && !(before < 0 && after > 0));
