@@ -75,8 +75,14 @@ void check_many(int rounds, unsigned seed) {
             check(maker.make(kind), k_contacts[i % 4], counts);
             if (testing::Test::HasFatalFailure()) return;
         }
-        std::printf("kind %d: %d, hits %d, in plane %d, several roots %d, filtered %d\n", static_cast<int>(kind),
-                    counts.all, counts.hits, counts.in_plane, counts.several, counts.filtered);
+        EXPECT_GT(counts.hits, counts.all / 20);
+        EXPECT_GT(counts.filtered, counts.all / 8);
+        EXPECT_LT(counts.filtered, kind == Kind::anywhere ? counts.all + 1 : counts.all);
+        if (kind == Kind::in_plane) {
+            EXPECT_EQ(counts.in_plane, counts.all);
+        } else {
+            EXPECT_GT(counts.several, counts.all / 10);
+        }
     }
 }
 

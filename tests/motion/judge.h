@@ -44,11 +44,12 @@ inline Polynomial operator*(const Polynomial& x, const Polynomial& y) {
     trim(product);
     return product;
 }
-inline int sign_of(const Polynomial& p, const mpq_class& t) {
+inline mpq_class value_of(const Polynomial& p, const mpq_class& t) {
     mpq_class value = 0;
     for (std::size_t i = p.size(); i-- > 0;) value = value * t + p[i];
-    return sgn(value);
+    return value;
 }
+inline int sign_of(const Polynomial& p, const mpq_class& t) { return sgn(value_of(p, t)); }
 inline Polynomial slope_of(const Polynomial& p) {
     Polynomial slope;
     for (std::size_t i = 1; i < p.size(); ++i) slope.push_back(p[i] * mpq_class(static_cast<unsigned long>(i)));
@@ -137,10 +138,18 @@ struct Time {
     int sign(const Polynomial& p) const {
         if (p.empty()) return 0;
         if (exact()) return sign_of(p, low);
-        const Polynomial both = common_divisor(of, p);
-        if (both.size() > 1 && Sturm(both).roots(low, high) > 0) return 0;
-        const Sturm sturm(without_repetition(p));
+        // Where p is further from 0 than its slope lets it come, no more is needed.
         Time time = *this;
+        mpq_class steepest = 0;
+        for (std::size_t i = 1; i < p.size(); ++i) steepest += abs(p[i]) * mpq_class(static_cast<unsigned long>(i));
+        for (int i = 0; i < 30 && !time.exact(); ++i) {
+            if (abs(value_of(p, time.high)) > (time.high - time.low) * steepest) return sign_of(p, time.high);
+            time.refine();
+        }
+        if (time.exact()) return sign_of(p, time.low);
+        const Polynomial both = common_divisor(of, p);
+        if (both.size() > 1 && Sturm(both).roots(time.low, time.high) > 0) return 0;
+        const Sturm sturm(without_repetition(p));
         while (!time.exact() && sturm.roots(time.low, time.high) > 0) time.refine();
         return sign_of(p, time.high);
     }

@@ -170,6 +170,8 @@ TEST(MovingLeaks, NoChainOfStepsThroughAVertex) {
     std::vector<Shape> shapes;
     for (int i = 0; i < 16; ++i)
         shapes.push_back(tent({i % 2 * 2.0 - 1, i / 2 % 2 * 2.0 - 1, i / 4 % 2 * 2.0 - 1, i / 8 * 2.0 - 1}, 0));
+    // An edge that goes on straight beyond the vertex: it folds at the vertex as well.
+    for (int i = 0; i < 4; ++i) shapes.push_back(tent({i % 2 * 2.0 - 1, 0, i / 2 * 2.0 - 1, 0}, 0));
     shapes.push_back(tent({0, 0, 0, 0}, 0));
     shapes.push_back(tent({0, 0, 0, 0}, 1));
     std::vector<Point> points;
