@@ -39,7 +39,7 @@ TEST(MovingFilter, IsSoundWhereItIsCertain) {
     QueryMaker maker(1);
     int certain = 0;
     for (int i = 0; i < 40000; ++i) {
-        Query q = maker.make(k_kinds[i % 8]);
+        Query q = maker.make(k_kinds[i % 9]);
         const double size = std::ldexp(1.0, i % 3 == 0 ? maker.number(-340, -200) : maker.number(-40, 40));
         const double noise = std::ldexp(1.0, -maker.number(30, 60));
         QueryMaker::each(q, [&](detail::Point& p) {
