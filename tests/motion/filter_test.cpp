@@ -1,4 +1,5 @@
-// The filter's certain answers where its bounds are needed most: nearly touching, at every size, at the ends of the range.
+// The filter's certain answers where its bounds are needed most: nearly touching, at every size, at the ends of the
+// range.
 #include <cmath>
 #include <limits>
 

@@ -1,8 +1,9 @@
 // No chain of steps gets through a closed mesh that deforms, by the one-sided rules.
 //
-// The chains of a lattice are all walked at once: where a step without a hit leads is a graph, whose nodes are a shape of the mesh
-// together with a place of the point. A leak is a way in it from one side to the other. The shapes fold their edges over, close
-// up to be flat, and pass through one another's places; the places lie on faces, edges and vertices.
+// The chains of a lattice are all walked at once: where a step without a hit leads is a graph, whose nodes are a shape
+// of the mesh together with a place of the point. A leak is a way in it from one side to the other. The shapes fold
+// their edges over, close up to be flat, and pass through one another's places; the places lie on faces, edges and
+// vertices.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -184,8 +185,8 @@ TEST(MovingLeaks, NoChainOfStepsThroughAVertex) {
 
 namespace {
 
-/// A ball of 26 vertices, the lattice points around the origin, each on its ray: at integer distances it has flat places, folds and
-/// spikes, and the surface never meets itself.
+/// A ball of 26 vertices, the lattice points around the origin, each on its ray: at integer distances it has flat
+/// places, folds and spikes, and the surface never meets itself.
 struct Ball {
     Faces faces;
     std::vector<Point> rays;

@@ -142,7 +142,8 @@ class QueryMaker {
         return q;
     }
 
-    // The triangle turns over about an edge while the point goes through that edge, along its plane then: a double root.
+    // The triangle turns over about an edge while the point goes through that edge, along its plane then: a double
+    // root.
     Query folding() {
         Query q;
         const int i = number(1, 7);
