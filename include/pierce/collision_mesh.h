@@ -29,6 +29,10 @@ namespace pierce {
 
 template <class Scalar>
 class Regions;
+template <class Scalar>
+class DeformationStep;
+template <class Scalar>
+class DeformingMesh;
 
 /// What was built, and what was odd about it. Bytes are those the library holds, all of them counted.
 struct MeshStatistics {
@@ -266,6 +270,8 @@ class PIERCE_EXPORT CollisionMesh {
                                  const QueryOptions& options, const Executor& executor) const;
 
     friend class Regions<Scalar>;
+    friend class DeformationStep<Scalar>;
+    friend class DeformingMesh<Scalar>;
 
     struct PIERCE_HIDDEN Impl;
     struct PIERCE_HIDDEN Release {
