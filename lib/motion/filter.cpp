@@ -246,36 +246,51 @@ class Filter {
         int signs[4];
         for (int i = 0; i < 4; ++i) signs[i] = sign_of(f_.b[i], f_.error[i]);
         const Certainty whole = part(signs, 0, 1);
-        if (whole != Certainty::doubtful || signs[0] == 0 || signs[3] == 0 || split_at_one_root_) return whole;
+        if (whole != Certainty::doubtful || signs[0] == 0 || signs[3] == 0 || one_root_) return whole;
         // Between its extremes f has one root or none.
-        double at[4] = {0, 0, 0, 1};
+        double at[4] = {0};
         int count = 1;
         const double d0 = f_.b[1] - f_.b[0];
         const double d1 = f_.b[2] - f_.b[1];
         const double d2 = f_.b[3] - f_.b[2];
-        const double square = d1 * d1 - d0 * d2;
-        if (!(square > 0)) return Certainty::doubtful;
         // d0 (1-t)^2 + 2 d1 t (1-t) + d2 t^2 is 0 where t : 1 - t is d0 : h or h : d2 for h = -d1 -+ sqrt(square).
-        const double h = -(d1 + std::copysign(std::sqrt(square), d1));
-        double one = d0 / (d0 + h);
-        double two = h / (h + d2);
-        if (two < one) std::swap(one, two);
-        if (one > 0 && one < 1) at[count++] = one;
-        if (two > 0 && two < 1 && two > one) at[count++] = two;
+        const double square = d1 * d1 - d0 * d2;
+        if (square > 0) {
+            const double h = -(d1 + std::copysign(std::sqrt(square), d1));
+            const double one = d0 / (d0 + h);
+            const double two = h / (h + d2);
+            const double first = std::min(one, two);
+            const double last = std::max(one, two);
+            if (first > 0 && first < 1) at[count++] = first;
+            if (last > 0 && last < 1 && last > first) at[count++] = last;
+        }
         at[count] = 1;
         for (int i = 0; i < count; ++i) {
-            double b[4];
-            restrict_to(f_, at[i], at[i + 1], b);
-            for (int k = 0; k < 4; ++k) signs[k] = sign_of(b[k], f_.worst);
-            const Certainty certainty = part(signs, at[i], at[i + 1]);
+            const Certainty certainty = stretch(at[i], at[i + 1], k_most_halvings);
             if (certainty != Certainty::miss) return certainty;
         }
         return Certainty::miss;
     }
 
   private:
+    static constexpr int k_most_halvings = 3;
+
+    Certainty stretch(double x, double y, int halvings) {
+        double b[4];
+        restrict_to(f_, x, y, b);
+        int signs[4];
+        for (int k = 0; k < 4; ++k) signs[k] = sign_of(b[k], f_.worst);
+        const Certainty certainty = part(signs, x, y);
+        if (certainty != Certainty::doubtful || signs[0] == 0 || signs[3] == 0 || one_root_ || halvings == 0)
+            return certainty;
+        const double middle = x / 2 + y / 2;
+        const Certainty left = stretch(x, middle, halvings - 1);
+        return left != Certainty::miss ? left : stretch(middle, y, halvings - 1);
+    }
+
     /// On [x, y], by the signs of the four coefficients there, of which 0 is not known.
     Certainty part(const int (&signs)[4], double x, double y) {
+        one_root_ = false;
         const int before = signs[0];
         const int after = signs[3];
         if (before == 0 || after == 0) return Certainty::doubtful;
@@ -284,7 +299,7 @@ class Filter {
         // One change of sign, whatever the unknown ones are: one root, at which f changes its sign.
         if (signs[1] != before && signs[2] != after) return Certainty::doubtful;
         if (!counting_.on_border(before, after)) return Certainty::miss;
-        split_at_one_root_ = true;
+        one_root_ = true;
         close_in(f_, before, x, y);
         const Certainty place = inside(seen_, largest_axis(seen_, x), x, y);
         if (place != Certainty::hit) return place;
@@ -297,7 +312,7 @@ class Filter {
     const Cubic& f_;
     Counting counting_;
     Impact& impact_;
-    bool split_at_one_root_ = false;
+    bool one_root_ = false;  ///< the last part had one, so to halve it says no more
 };
 
 /// Whether the point is certainly outside whenever it is in the plane.

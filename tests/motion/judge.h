@@ -5,6 +5,7 @@
 #include <gmpxx.h>
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -64,9 +65,22 @@ inline std::pair<Polynomial, Polynomial> divide(Polynomial x, const Polynomial& 
     }
     return {quotient, x};
 }
+/// A positive multiple with short whole coefficients.
+inline Polynomial primitive(Polynomial p) {
+    mpz_class factor = 1;
+    for (const auto& c : p) factor = lcm(factor, c.get_den());
+    mpz_class content = 0;
+    for (auto& c : p) {
+        c *= factor;
+        content = gcd(content, c.get_num());
+    }
+    if (content != 0)
+        for (auto& c : p) c /= content;
+    return p;
+}
 inline Polynomial common_divisor(Polynomial x, Polynomial y) {
     while (!y.empty()) {
-        Polynomial rest = divide(x, y).second;
+        Polynomial rest = primitive(divide(x, y).second);
         x = std::move(y);
         y = std::move(rest);
     }
@@ -74,7 +88,7 @@ inline Polynomial common_divisor(Polynomial x, Polynomial y) {
 }
 /// Each root once.
 inline Polynomial without_repetition(const Polynomial& p) {
-    return p.size() < 3 ? p : divide(p, common_divisor(p, slope_of(p))).first;
+    return primitive(p.size() < 3 ? p : divide(p, common_divisor(p, slope_of(p))).first);
 }
 
 /// Sturm's chain of a polynomial without repeated roots: how many of its roots are in (a, b].
@@ -82,7 +96,7 @@ class Sturm {
   public:
     explicit Sturm(const Polynomial& p) {
         chain_ = {p, slope_of(p)};
-        while (!chain_.back().empty()) chain_.push_back(-divide(chain_[chain_.size() - 2], chain_.back()).second);
+        while (!chain_.back().empty()) chain_.push_back(primitive(-divide(chain_[chain_.size() - 2], chain_.back()).second));
         chain_.pop_back();
     }
     int roots(const mpq_class& a, const mpq_class& b) const { return changes(a) - changes(b); }
@@ -194,10 +208,28 @@ struct Judgement {
 class Judge {
   public:
     Judge(const MovingPoint& point, const MovingTriangle& triangle) {
+        // In units of which all coordinates are whole multiples: faster, and times stay the same.
+        int lowest = 2000;
+        const auto look = [&lowest](const detail::Point& p) {
+            for (const double x : p)
+                if (x != 0) lowest = std::min(lowest, std::ilogb(x) - 52);
+        };
+        for (int i = 0; i < 2; ++i) {
+            look(point.at[i]);
+            for (const detail::Point& p : triangle.at[i]) look(p);
+        }
+        const auto whole = [lowest](double x) {
+            mpq_class q(x);
+            if (lowest < 0)
+                mpq_mul_2exp(q.get_mpq_t(), q.get_mpq_t(), static_cast<unsigned long>(-lowest));
+            else
+                mpq_div_2exp(q.get_mpq_t(), q.get_mpq_t(), static_cast<unsigned long>(lowest));
+            return q;
+        };
         for (std::size_t corner = 0; corner < 3; ++corner)
             for (std::size_t k = 0; k < 3; ++k) {
-                const mpq_class start = mpq_class(triangle.at[0][corner][k]) - mpq_class(point.at[0][k]);
-                const mpq_class end = mpq_class(triangle.at[1][corner][k]) - mpq_class(point.at[1][k]);
+                const mpq_class start = whole(triangle.at[0][corner][k]) - whole(point.at[0][k]);
+                const mpq_class end = whole(triangle.at[1][corner][k]) - whole(point.at[1][k]);
                 corner_[corner][k] = {start, end - start};
                 trim(corner_[corner][k]);
             }

@@ -51,13 +51,13 @@ class QueryMaker {
                 return q;
             }
             case Kind::anywhere: {
-                each(q, [this](detail::Point& p) { p = {real(-1, 1), real(-1, 1), real(-1, 1)}; });
+                each(q, [this](detail::Point& p) { for (double& x : p) x = number(-1000000, 1000000) * 0x1p-20; });
                 return q;
             }
             case Kind::unequal: {  // exponents far apart
                 q = number(0, 1) == 0 ? on_lattice(1) : touching();
                 for (int changes = number(1, 4); changes > 0; --changes)
-                    any_coordinate(q) = std::ldexp(real(-1, 1), number(-300, 300));
+                    any_coordinate(q) = std::ldexp(real(-1, 1), number(-60, 60));
                 return q;
             }
         }
