@@ -10,7 +10,7 @@ namespace pierce::detail {
 template <int C>
 struct Halves {
     int depth = 0;
-    std::uint64_t digits[C / 3 + 2];  // cubics grow by three bits a halving, so they are full first
+    std::uint64_t digits[static_cast<std::size_t>(C / 3 + 2)];  // cubics grow by three bits a halving, so they are full first
 
     Halves() {}  // NOLINT(modernize-use-equals-default): leaves the digits as they are
     Halves(const Halves& x) { *this = x; }

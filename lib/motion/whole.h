@@ -14,7 +14,7 @@ template <int Capacity>
 struct Whole {
     int count = 0;
     bool minus = false;
-    std::uint64_t limb[Capacity];
+    std::uint64_t limb[static_cast<std::size_t>(Capacity)];
 
     Whole() {}  // NOLINT(modernize-use-equals-default): leaves the limbs as they are
     Whole(const Whole& x) { *this = x; }
