@@ -94,8 +94,7 @@ class PIERCE_EXPORT CollisionMesh {
     /// and the others are where they were. The time is that of the clusters around them, and of the nodes above these.
     /// std::invalid_argument: there is no vertex of that number. The first call makes 20 bytes a triangle more.
     void refit(const PointsView<Scalar>& positions, std::span<const std::uint32_t> changed);
-    /// The same as `refit`, by a build: in the time of the constructor, less the copy of the triangles. Where memory
-    /// runs out the mesh stays as it was.
+    /// The same as `refit`, by a build: in the time of the constructor, less the copy of the triangles.
     void rebuild(const PointsView<Scalar>& positions, const Executor& executor = {});
     /// What a query may be expected to go through, in nodes and clusters by the areas of their boxes (the surface area
     /// heuristic, Goldsmith and Salmon 1987), in parts of what it was when the mesh was built: 1 without a refit since

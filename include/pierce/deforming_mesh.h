@@ -57,6 +57,12 @@ class PIERCE_EXPORT DeformationStep {
     std::shared_ptr<const Impl> impl_;  ///< null: no triangles
 };
 
+/// Where a rigid body is: a point x of it at `rotation * x + translation`.
+struct Pose {
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+    Vec3<double> translation = Vec3<double>::Zero();
+};
+
 struct DeformationOptions {
     /// How the static meshes of both ends are built; the executor is that of the first build only.
     BuildOptions build = {};
@@ -89,6 +95,13 @@ class PIERCE_EXPORT DeformingMesh {
     /// of a build. Throws std::invalid_argument where there are not as many positions as vertices, `MeshError` for one
     /// that is not finite, or std::bad_alloc; the current step stays then.
     void begin_step(const PointsView<Scalar>& positions, const Executor& executor = {});
+
+    /// The next step leads to a pose of the mesh as it was built: each vertex is put there, computed in double and
+    /// rounded, and goes straight in between. All answers are exact about these positions and these ways, so nothing
+    /// leaks from step to step. They are not those of the rigid motion: a vertex that turns by an angle a in a step, at
+    /// a distance r from the axis, leaves its arc by r (1 - cos(a / 2)), and the mesh shrinks by as much in the middle
+    /// of the step; halve the step where that is too much.
+    void begin_step(const Pose& pose, const Executor& executor = {});
 
     /// The current step.
     [[nodiscard]] DeformationStep<Scalar> step() const noexcept;

@@ -6,7 +6,8 @@
 //       particle = hit->point;                                  // safe to stand on, safe to step from
 //
 // Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, ray.h, location.h, passage.h,
-// batch.h, collision_mesh.h; sweep_hit.h and deforming_mesh.h for meshes that move; regions.h for particle transport; result.h for programs without exceptions.
+// batch.h, collision_mesh.h; sweep_hit.h and deforming_mesh.h for meshes that move; regions.h for particle transport;
+// result.h for programs without exceptions.
 // <pierce/openmesh.h> adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single
 // triangles. <pierce/pierce_c.h> is for programs in C.
 #pragma once

@@ -15,7 +15,9 @@ namespace pierce {
 ///
 /// A contact with a front counts when the point is in front of the moving triangle's plane or on it just before, and
 /// behind it just after. At the step's start on the plane counts as in front; at its end on the plane has not hit yet:
-/// the next step has it. So no chain of steps gets through a closed mesh unseen, however it moves. `Sides` says what
+/// the next step has it. On an edge or a vertex, in between, any contact counts but one that comes from behind and goes
+/// to the front: there a surface that folds can be passed without a change of side of any one plane. So no chain of
+/// steps gets through a closed mesh unseen, however it moves (lib/motion/README.md has the proof). `Sides` says what
 /// counts from the back. For a mesh that stands still, or moves without a turn, these are the rules of `Hit`.
 template <class Scalar>
 struct SweepHit {

@@ -33,8 +33,8 @@ template <class Scalar>
 [[nodiscard]] ClusterBuild<Scalar> make_clusters(const PlainMesh<Scalar>& mesh, bool (*has_zero_area)(const Corners&),
                                                  const Executor& executor);
 
-/// `ClusterBuild::unit` for a scene of this box. Throws `MeshError` where the box is too small for its distance from the
-/// origin.
+/// `ClusterBuild::unit` for a scene of this box. Throws `MeshError` where the box is too small for its distance from
+/// the origin.
 template <class Scalar>
 [[nodiscard]] Scalar scene_unit(const QuadBox<Scalar>& box);
 

@@ -71,8 +71,8 @@ class ClusterWriter {
         }
     }
 
-    /// The same for what is one record in any case, at the place `begin`. False: none of them has an area, and nothing is
-    /// written but `degenerate`.
+    /// The same for what is one record in any case, at the place `begin`. False: none of them has an area, and nothing
+    /// is written but `degenerate`.
     bool rewrite(std::uint32_t begin, std::uint32_t end, std::uint32_t last, ClusterBox<Scalar>& box,
                  std::vector<std::uint32_t>& degenerate) {
         const QuadBox<Scalar> all = gather_all(begin, end, last, degenerate);

@@ -16,24 +16,33 @@ using namespace detail;
 
 namespace {
 
-/// Builds anew, and forgets what refits went by.
-template <class Scalar, class Impl>
-void build_anew(Impl& impl, std::span<const Vec3<Scalar>> positions, const Executor& executor) {
-    rebuild_scene(impl.scene, positions, impl.options, executor);
-    impl.refit.reset();
-}
-
-/// `refit(Refit&)`, which says whether it could; else builds anew. The mesh is left without triangles where memory runs
-/// out, since records and bounds may be half written.
-template <class Scalar, class Mesh, class Impl, class Do>
-void refit_or_build(Mesh& mesh, Impl& impl, const Executor& executor, Do&& refit) {
+/// The mesh is left without triangles where memory runs out, since records and bounds may be half written.
+template <class Mesh, class Do>
+void or_without_triangles(Mesh& mesh, Do&& change) {
     try {
-        if (!impl.refit) impl.refit = std::make_unique<Refit<Scalar>>(impl.scene);
-        if (!refit(*impl.refit)) build_anew<Scalar>(impl, impl.refit->wanted(), executor);
+        change();
     } catch (const std::bad_alloc&) {
         mesh = Mesh();
         throw;
     }
+}
+
+/// Builds anew, and forgets what refits went by.
+template <class Scalar, class Mesh, class Impl>
+void build_anew(Mesh& mesh, Impl& impl, std::span<const Vec3<Scalar>> positions, const Executor& executor) {
+    or_without_triangles(mesh, [&] { rebuild_scene(impl.scene, positions, impl.options, executor); });
+    impl.refit.reset();
+}
+
+/// `refit(Refit&)`, which says whether it could; else builds anew.
+template <class Scalar, class Mesh, class Impl, class Do>
+void refit_or_build(Mesh& mesh, Impl& impl, const Executor& executor, Do&& refit) {
+    bool done = false;
+    or_without_triangles(mesh, [&] {
+        if (!impl.refit) impl.refit = std::make_unique<Refit<Scalar>>(impl.scene);
+        done = refit(*impl.refit);
+    });
+    if (!done) build_anew<Scalar>(mesh, impl, impl.refit->wanted(), executor);
 }
 
 }  // namespace
@@ -73,7 +82,7 @@ void CollisionMesh<Scalar>::refit(const PointsView<Scalar>& positions, std::span
             check_position<Scalar>(v, positions[v]);
             all[v] = positions[v];
         }
-        return build_anew<Scalar>(*impl_, all, {});
+        return build_anew<Scalar>(*this, *impl_, all, {});
     }
     refit_or_build<Scalar>(*this, *impl_, {},
                            [&](Refit<Scalar>& refit) { return refit.some(scene, positions, changed, impl_->options); });
@@ -88,7 +97,7 @@ void CollisionMesh<Scalar>::rebuild(const PointsView<Scalar>& positions, const E
     const Executor threads = in_standard_arithmetic.executor();
     const MadePlain<Scalar> plain(MeshView<Scalar>{positions, {}}, threads);
     check_positions(plain.mesh().positions, threads);
-    build_anew<Scalar>(*impl_, plain.mesh().positions, threads);
+    build_anew<Scalar>(*this, *impl_, plain.mesh().positions, threads);
 }
 
 template <class Scalar>

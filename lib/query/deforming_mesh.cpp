@@ -22,6 +22,7 @@ struct DeformingMesh<Scalar>::Impl {
     DeformationOptions options;
     std::vector<IndexTriple> triangles;
     std::vector<std::uint32_t> faces;
+    std::vector<Vec3<Scalar>> rest;  ///< as it was built
     std::size_t vertex_count = 0;
     Pool<MovingState<Scalar>> states;
     Pool<MovingRecords<Scalar>> records;
@@ -88,6 +89,7 @@ DeformingMesh<Scalar>::DeformingMesh(const MeshView<Scalar>& mesh, const Deforma
     state->mesh = CollisionMesh<Scalar>(mesh, options.build);
     impl.vertex_count = mesh.positions.size();
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) state->positions.push_back(mesh.positions[v]);
+    impl.rest = state->positions;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) impl.triangles.push_back(mesh.triangles[i]);
     impl.faces.assign(mesh.faces.begin(), mesh.faces.end());
 
@@ -123,6 +125,23 @@ void DeformingMesh<Scalar>::begin_step(const PointsView<Scalar>& positions, cons
     }
     next->set(now->ends[1]->mesh.impl_->scene, state->mesh.impl_->scene, threads);
     impl.publish(std::move(next));
+}
+
+template <class Scalar>
+void DeformingMesh<Scalar>::begin_step(const Pose& pose, const Executor& executor) {
+    if (!impl_) return;
+    std::vector<Vec3<Scalar>> posed(impl_->rest.size());
+    {
+        const StandardArithmetic standard;
+        for (std::size_t v = 0; v < posed.size(); ++v) {
+            const Vec3<Scalar>& x = impl_->rest[v];
+            for (int k = 0; k < 3; ++k)
+                posed[v][k] = static_cast<Scalar>(
+                    pose.rotation(k, 0) * static_cast<double>(x[0]) + pose.rotation(k, 1) * static_cast<double>(x[1]) +
+                    pose.rotation(k, 2) * static_cast<double>(x[2]) + pose.translation[k]);
+        }
+    }
+    begin_step(PointsView<Scalar>(posed), executor);
 }
 
 template <class Scalar>

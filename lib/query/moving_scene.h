@@ -1,8 +1,8 @@
 // A mesh over one step, from the old to the new positions of its vertices: records of both, and a tree whose boxes hold
 // all that a triangle comes through. (Each corner goes straight, so the triangle stays in the hull of its two ends.)
 //
-// Other than in a Scene, triangles without area stay in their clusters: one that has none at either end may have some in
-// between.
+// Other than in a Scene, triangles without area stay in their clusters: one that has none at either end may have some
+// in between.
 #pragma once
 
 #include <memory>

@@ -41,7 +41,8 @@ template <class Scalar>
 /// The same values where the time is `time`.
 [[nodiscard]] MovingValues values_at(const MovingPoint& point, const MovingCandidate& candidate, double time);
 
-/// Looks for a place at the end of the step; false where none is verified: then it is the start, moved with the surface.
+/// Looks for a place at the end of the step; false where none is verified: then it is the start, moved with the
+/// surface.
 template <class Scalar>
 [[nodiscard]] bool find_place(const MovingScene<Scalar>& scene, const MovingPoint& point, const MovingCandidate& first,
                               const MovingValues& values, const QueryOptions& options, QueryCounters& counters,

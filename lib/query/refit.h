@@ -3,7 +3,8 @@
 //
 // A triangle stays in the cluster that it was built into. One that loses its area leaves the record, and its cluster
 // gets another name, which says how many are left (cluster/record.h), or none, and is closed; one that gets its area
-// back returns. Only what had no area when the scene was built has no cluster to go to: with it the scene is built anew.
+// back returns. Only what had no area when the scene was built has no cluster to go to: with it the scene is built
+// anew.
 // So a scene has the same clusters' triangles, degenerate triangles, bounds, grain and noise as one that is built from
 // the same positions, and what a query answers depends on nothing else.
 #pragma once

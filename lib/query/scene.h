@@ -110,7 +110,8 @@ template <class Scalar>
 [[nodiscard]] [[gnu::noinline]] Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options);
 
 /// Builds the same triangles again, at other positions, which are finite. Of `options` only the grid's are looked at,
-/// and `executor` is in standard arithmetic. The scene is as it was where this throws, `MeshError` or std::bad_alloc.
+/// and `executor` is in standard arithmetic. The scene is as it was where this throws `MeshError`; with std::bad_alloc
+/// it may be of no use any more.
 template <class Scalar>
 [[gnu::noinline]] void rebuild_scene(Scene<Scalar>& scene, std::span<const Vec3<Scalar>> positions,
                                      const BuildOptions& options, const Executor& executor);
