@@ -18,18 +18,25 @@ struct Counting {
     /// At a time in (0, 1), on the open face of a triangle with area.
     [[nodiscard]] constexpr bool on_face(int before, int after) const {
         switch (contact) {
-            case Contact::front: return before > 0 && after < 0;
-            case Contact::back: return before < 0 && after > 0;
-            case Contact::both: return before != after;
-            default: return true;
+            case Contact::front:
+                return before > 0 && after < 0;
+            case Contact::back:
+                return before < 0 && after > 0;
+            case Contact::both:
+                return before != after;
+            default:
+                return true;
         }
     }
     /// On its border, or on a triangle that has no area at that time.
     [[nodiscard]] constexpr bool on_border(int before, int after) const {
         switch (contact) {
-            case Contact::front: return before > 0 || after < 0;
-            case Contact::back: return before < 0 || after > 0;
-            default: return true;
+            case Contact::front:
+                return before > 0 || after < 0;
+            case Contact::back:
+                return before < 0 || after > 0;
+            default:
+                return true;
         }
     }
     [[nodiscard]] constexpr Sides side(int before) const {

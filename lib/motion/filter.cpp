@@ -51,8 +51,7 @@ struct Quadratic {
 void see(const MovingPoint& point, const MovingTriangle& triangle, Seen& seen) {
     for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t corner = 0; corner < 3; ++corner)
-            for (std::size_t k = 0; k < 3; ++k)
-                seen.at[i][corner][k] = triangle.at[i][corner][k] - point.at[i][k];
+            for (std::size_t k = 0; k < 3; ++k) seen.at[i][corner][k] = triangle.at[i][corner][k] - point.at[i][k];
 }
 
 /// Whether all corners are on one side of the point along an axis, at both ends and so all the time. A difference has the sign of the
@@ -198,41 +197,42 @@ void restrict_to(const Cubic& f, double x, double y, double (&out)[4]) {
     out[3] = mix(yy[0], yy[1], y);
 }
 
-struct Value {
-    double value;
-    double slope;
-};
-[[nodiscard]] Value value_at(const Cubic& f, double t) {
+[[nodiscard]] double value_at(const Cubic& f, double t) {
     const double row[3] = {mix(f.b[0], f.b[1], t), mix(f.b[1], f.b[2], t), mix(f.b[2], f.b[3], t)};
-    const double last[2] = {mix(row[0], row[1], t), mix(row[1], row[2], t)};
-    return {mix(last[0], last[1], t), 3 * (last[1] - last[0])};
+    return mix(mix(row[0], row[1], t), mix(row[1], row[2], t), t);
 }
 
-/// Brings the ends of an interval, with one root in it and f of certain and different signs at its ends, near to the root.
+/// Brings the ends of an interval, with one root in it and f of certain and different signs at its ends, near to the root. Whatever
+/// the search finds, an end is moved only where the sign of f is certain.
 void close_in(const Cubic& f, int before, double& x, double& y) {
+    // In powers of t, by Newton's method; bisection where it would leave the interval.
+    const double c1 = 3 * (f.b[1] - f.b[0]);
+    const double c2 = 3 * (f.b[2] - 2 * f.b[1] + f.b[0]);
+    const double c3 = f.b[3] - 3 * f.b[2] + 3 * f.b[1] - f.b[0];
     double low = x;
     double high = y;
-    double t = low / 2 + high / 2;
-    Value at{};
+    double t = x == 0 && y == 1 ? f.b[0] / (f.b[0] - f.b[3]) : x / 2 + y / 2;
+    double slope = 0;
     for (int i = 0; i < 24; ++i) {
-        at = value_at(f, t);
-        if ((at.value > 0) == (before > 0))
+        const double value = f.b[0] + t * (c1 + t * (c2 + t * c3));
+        slope = c1 + t * (2 * c2 + t * (3 * c3));
+        if (std::fabs(value) <= f.worst) break;
+        if ((value > 0) == (before > 0))
             low = t;
         else
             high = t;
-        if (std::fabs(at.value) <= f.worst) break;
-        double next = t - at.value / at.slope;
+        double next = t - value / slope;
         if (!(next > low && next < high)) next = low / 2 + high / 2;
-        if (next == t || std::fabs(next - t) < 0x1p-54) break;
+        if (std::fabs(next - t) < 0x1p-53 * t) break;
         t = next;
     }
-    // Signs are certain from where f is worst away from 0.
-    double away = 2 * f.worst / std::fabs(at.slope) + 0x1p-53 * t;
+    // The value is off by `worst` at most, and so is where it is compared with 0.
+    double away = 3 * f.worst / std::fabs(slope) + 0x1p-52 * t;
     for (int i = 0; i < 3; ++i, away *= 8) {
         const double left = t - away;
         const double right = t + away;
-        if (left > x && sign_of(value_at(f, left).value, f.worst) == before) x = left;
-        if (right < y && sign_of(value_at(f, right).value, f.worst) == -before) y = right;
+        if (left > x && sign_of(value_at(f, left), f.worst) == before) x = left;
+        if (right < y && sign_of(value_at(f, right), f.worst) == -before) y = right;
         if (x >= left && y <= right) break;
     }
 }
@@ -294,8 +294,7 @@ class Filter {
         const int before = signs[0];
         const int after = signs[3];
         if (before == 0 || after == 0) return Certainty::doubtful;
-        if (before == after)
-            return signs[1] == before && signs[2] == before ? Certainty::miss : Certainty::doubtful;
+        if (before == after) return signs[1] == before && signs[2] == before ? Certainty::miss : Certainty::doubtful;
         // One change of sign, whatever the unknown ones are: one root, at which f changes its sign.
         if (signs[1] != before && signs[2] != after) return Certainty::doubtful;
         if (!counting_.on_border(before, after)) return Certainty::miss;
@@ -333,11 +332,6 @@ Certainty filter(const MovingPoint& point, const MovingTriangle& triangle, Conta
     const Certainty certainty = Filter(seen, f, contact, impact).decide();
     if (certainty == Certainty::doubtful && always_outside(seen)) return Certainty::miss;
     return certainty;
-}
-
-bool certainly_apart(const MovingPoint& point, const MovingTriangle& triangle) noexcept {
-    Impact impact;
-    return filter(point, triangle, Contact::closed, impact) == Certainty::miss;
 }
 
 }  // namespace pierce::detail

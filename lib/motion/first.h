@@ -166,9 +166,8 @@ class FirstContact {
     template <class OnEdge>
     void keep_earliest(const Bernstein<C>& line, OnEdge&& on_edge) {
         Root<C> root;
-        if (each_root(line, root, [&](int, int) {
-                return on_edge([&root](const Bernstein<C>& q) { return sign_at(root, q); });
-            })) {
+        if (each_root(line, root,
+                      [&](int, int) { return on_edge([&root](const Bernstein<C>& q) { return sign_at(root, q); }); })) {
             if (impact_.hit && when_ == When::between && compare(root_, root) <= 0) return;
             const Place place = place_at(root);
             line_ = line;
@@ -177,8 +176,7 @@ class FirstContact {
             hit(When::between, Sides::front, place);
             return;
         }
-        if (impact_.hit || !line.b[2].zero() ||
-            !on_edge([](const Bernstein<C>& q) { return q.b[q.degree].sign(); }))
+        if (impact_.hit || !line.b[2].zero() || !on_edge([](const Bernstein<C>& q) { return q.b[q.degree].sign(); }))
             return;
         hit(When::end, Sides::front, place_at(true));
     }

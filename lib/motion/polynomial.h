@@ -4,6 +4,8 @@
 // A polynomial stands for all its positive multiples: only signs and roots are asked for.
 #pragma once
 
+#include <cmath>
+
 #include <motion/whole.h>
 
 namespace pierce::detail {
@@ -59,6 +61,77 @@ inline void halve(Bernstein<C>& p, bool right) {
     }
     // b[i] is now 2^i (left), 2^(n-i) (right) times what it should be.
     for (int i = 0; i <= n; ++i) shift_up(p.b[i], right ? i : n - i);
+}
+
+/// (a x + b y) of numbers >= 0 of one limb.
+template <int C>
+[[nodiscard]] inline Whole<C> mixed(const Whole<C>& x, std::uint64_t a, const Whole<C>& y, std::uint64_t b) {
+    Whole<C> sum;
+    multiply(sum, x, whole<1>(a));
+    add_product(sum, y, whole<1>(b));
+    return sum;
+}
+
+/// The polynomial on the part from i / n to (i + 1) / n of its interval, times n^degree: its blossoms there (Ramshaw 1987).
+template <int C>
+inline void restrict_to_part(const Bernstein<C>& p, std::uint64_t i, std::uint64_t n, Bernstein<C>& out) {
+    out.degree = p.degree;
+    // Blossom k takes the part's start degree - k times, and its end k times.
+    for (int k = 0; k <= p.degree; ++k) {
+        Whole<C> row[4];
+        for (int j = 0; j <= p.degree; ++j) row[j] = p.b[j];
+        for (int level = 0; level < p.degree; ++level) {
+            const std::uint64_t at = level < k ? i + 1 : i;
+            for (int j = 0; j < p.degree - level; ++j) row[j] = mixed(row[j], n - at, row[j + 1], at);
+        }
+        out.b[k] = row[0];
+    }
+}
+
+/// About where the polynomial, with different signs at the ends of its interval, has a root there: by its coefficients' highest bits.
+template <int C>
+[[nodiscard]] inline double estimate_root(const Bernstein<C>& p) {
+    int limbs = 0;
+    for (int i = 0; i <= p.degree; ++i) limbs = std::max(limbs, p.b[i].count);
+    double b[4] = {};
+    for (int i = 0; i <= p.degree; ++i) {
+        for (int j = std::max(0, limbs - 3); j < p.b[i].count; ++j)
+            b[i] += std::ldexp(static_cast<double>(p.b[i].limb[j]), 64 * (j - limbs));
+        if (p.b[i].minus) b[i] = -b[i];
+    }
+    double low = 0;
+    double high = 1;
+    double t = b[0] / (b[0] - b[p.degree]);
+    for (int i = 0; i < 60; ++i) {
+        double row[4] = {b[0], b[1], b[2], b[3]};
+        for (int level = p.degree; level > 1; --level)
+            for (int j = 0; j < level; ++j) row[j] = (1 - t) * row[j] + t * row[j + 1];
+        const double value = (1 - t) * row[0] + t * row[1];
+        if (value == 0) break;
+        if ((value > 0) == (b[0] > 0))
+            low = t;
+        else
+            high = t;
+        double next = t - value / (p.degree * (row[1] - row[0]));
+        if (!(next > low && next < high)) next = low / 2 + high / 2;
+        if (std::fabs(next - t) <= 0x1p-53 * t) break;
+        t = next;
+    }
+    return t;
+}
+
+template <int C>
+[[nodiscard]] inline int sign_in_middle(const Bernstein<C>& p) {
+    Whole<C> sum;
+    for (int i = 1; i < p.degree; ++i) add_to(sum, p.b[i]);
+    if (p.degree == 3 || p.degree == 2) {  // times C(degree, 1)
+        const Whole<C> once = sum;
+        shift_up(sum, 1);
+        if (p.degree == 3) add_to(sum, once);
+    }
+    add_to(sum, p.b[0]);
+    add_to(sum, p.b[p.degree]);
+    return sum.sign();
 }
 
 /// sum of c[i] t^i; degree -1 for the zero polynomial, else c[degree] is not 0.

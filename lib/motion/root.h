@@ -10,13 +10,14 @@ namespace pierce::detail {
 template <int C>
 struct Halves {
     int depth = 0;
-    std::uint64_t digits[static_cast<std::size_t>(C / 3 + 2)];  // cubics grow by three bits a halving, so they are full first
+    std::uint64_t digits[std::size_t{C / 3 + 2}];  // cubics grow by three bits a halving, so they are full first
 
     Halves() {}  // NOLINT(modernize-use-equals-default): leaves the digits as they are
     Halves(const Halves& x) { *this = x; }
     Halves& operator=(const Halves& x) {
         depth = x.depth;
-        if (this != &x) std::memcpy(digits, x.digits, sizeof(std::uint64_t) * static_cast<std::size_t>((depth + 63) / 64));
+        if (this != &x)
+            std::memcpy(digits, x.digits, sizeof(std::uint64_t) * static_cast<std::size_t>((depth + 63) / 64));
         return *this;
     }
     ~Halves() = default;
@@ -62,26 +63,46 @@ struct Root {
         }
     }
     void set_middle(const Bernstein<C>& polynomial, const Halves<C>& of_interval) {
+        of = &polynomial;
         Halves<C> middle = of_interval;
         middle.add(true);
+        set_end(middle, 0);
+    }
+    /// The fraction m / 2^depth, m being the digits of `at` and `more`, 1 or 0.
+    void set_end(const Halves<C>& at, std::uint64_t more) {
+        Whole<C> number = at.number();
+        add_to(number, whole<C>(more));
         Whole<C> power = whole<C>(1);
-        shift_up(power, middle.depth);
-        set_fraction(polynomial, middle.number(), power);
+        shift_up(power, at.depth);
+        set_fraction(*of, number, power);
+    }
+    /// As many halvings as it says, at once: an estimate of the root names the part, and it is taken if the root is there. False if not.
+    bool leap(int count) {
+        const double estimate = estimate_root(here);
+        const double steps = std::ldexp(1.0, count);
+        if (!(estimate > 0 && estimate < 1)) return false;
+        const auto part = static_cast<std::uint64_t>(estimate * steps);
+        Bernstein<C> there;
+        restrict_to_part(here, part, static_cast<std::uint64_t>(1) << count, there);
+        const int start = there.b[0].sign();
+        const int end = there.b[there.degree].sign();
+        if (start == end) return false;
+        for (int i = count - 1; i >= 0; --i) halves.add((part >> i & 1) != 0);
+        if (start == 0 || end == 0)
+            set_end(halves, start == 0 ? 0 : 1);
+        else
+            here = there;
+        return true;
     }
     /// Halves the interval, which may show that the root is its middle.
     void refine() {
-        Bernstein<C> left = here;
-        halve(left, false);
-        const int middle = left.b[left.degree].sign();
+        const int middle = sign_in_middle(here);
         if (middle == 0) {
             set_middle(*of, halves);
             return;
         }
         const bool right = middle == here.sign_after_start();
-        if (right)
-            halve(here, true);
-        else
-            here = left;
+        halve(here, right);
         halves.add(right);
     }
 };
@@ -179,7 +200,9 @@ struct Enclosure {
 template <int C>
 [[nodiscard]] Enclosure enclose(Root<C>& root) {
     constexpr int k_digits = 62;
-    while (!root.is_fraction && root.halves.depth < k_digits) root.refine();
+    while (!root.is_fraction && root.halves.depth < k_digits)
+        if (!root.leap(std::min(40, k_digits - root.halves.depth)))
+            for (int i = 0; i < 6 && !root.is_fraction && root.halves.depth < k_digits; ++i) root.refine();
     std::uint64_t m = 0;
     bool exact = false;
     if (root.is_fraction) {  // long division
@@ -217,8 +240,7 @@ int multiple_roots(const Bernstein<C>& f, Root<C>& root, Meet&& meet) {
     {
         Powers<C> slope;
         slope.degree = p.degree - 1;
-        for (int i = 0; i <= slope.degree; ++i)
-            slope.c[i] = p.c[i + 1] * whole<C>(static_cast<std::uint64_t>(i + 1));
+        for (int i = 0; i <= slope.degree; ++i) slope.c[i] = p.c[i + 1] * whole<C>(static_cast<std::uint64_t>(i + 1));
         divide_common(common, slope);
     }
     if (common.degree == 0) return -1;

@@ -14,13 +14,12 @@ template <int Capacity>
 struct Whole {
     int count = 0;
     bool minus = false;
-    std::uint64_t limb[static_cast<std::size_t>(Capacity)];
+    std::uint64_t limb[std::size_t{Capacity}];
 
     Whole() {}  // NOLINT(modernize-use-equals-default): leaves the limbs as they are
     Whole(const Whole& x) { *this = x; }
     template <int Other>
-        requires(Other != Capacity)
-    explicit Whole(const Whole<Other>& x) : count(x.count), minus(x.minus) {
+    requires(Other != Capacity) explicit Whole(const Whole<Other>& x) : count(x.count), minus(x.minus) {
         std::memcpy(limb, x.limb, sizeof(std::uint64_t) * static_cast<std::size_t>(x.count));
     }
     Whole& operator=(const Whole& x) {

@@ -44,11 +44,12 @@ inline Polynomial operator*(const Polynomial& x, const Polynomial& y) {
     trim(product);
     return product;
 }
-inline int sign_of(const Polynomial& p, const mpq_class& t) {
+inline mpq_class value_of(const Polynomial& p, const mpq_class& t) {
     mpq_class value = 0;
     for (std::size_t i = p.size(); i-- > 0;) value = value * t + p[i];
-    return sgn(value);
+    return value;
 }
+inline int sign_of(const Polynomial& p, const mpq_class& t) { return sgn(value_of(p, t)); }
 inline Polynomial slope_of(const Polynomial& p) {
     Polynomial slope;
     for (std::size_t i = 1; i < p.size(); ++i) slope.push_back(p[i] * mpq_class(static_cast<unsigned long>(i)));
@@ -96,7 +97,8 @@ class Sturm {
   public:
     explicit Sturm(const Polynomial& p) {
         chain_ = {p, slope_of(p)};
-        while (!chain_.back().empty()) chain_.push_back(primitive(-divide(chain_[chain_.size() - 2], chain_.back()).second));
+        while (!chain_.back().empty())
+            chain_.push_back(primitive(-divide(chain_[chain_.size() - 2], chain_.back()).second));
         chain_.pop_back();
     }
     int roots(const mpq_class& a, const mpq_class& b) const { return changes(a) - changes(b); }
@@ -136,10 +138,18 @@ struct Time {
     int sign(const Polynomial& p) const {
         if (p.empty()) return 0;
         if (exact()) return sign_of(p, low);
-        const Polynomial both = common_divisor(of, p);
-        if (both.size() > 1 && Sturm(both).roots(low, high) > 0) return 0;
-        const Sturm sturm(without_repetition(p));
+        // Where p is further from 0 than its slope lets it come, no more is needed.
         Time time = *this;
+        mpq_class steepest = 0;
+        for (std::size_t i = 1; i < p.size(); ++i) steepest += abs(p[i]) * mpq_class(static_cast<unsigned long>(i));
+        for (int i = 0; i < 30 && !time.exact(); ++i) {
+            if (abs(value_of(p, time.high)) > (time.high - time.low) * steepest) return sign_of(p, time.high);
+            time.refine();
+        }
+        if (time.exact()) return sign_of(p, time.low);
+        const Polynomial both = common_divisor(of, p);
+        if (both.size() > 1 && Sturm(both).roots(time.low, time.high) > 0) return 0;
+        const Sturm sturm(without_repetition(p));
         while (!time.exact() && sturm.roots(time.low, time.high) > 0) time.refine();
         return sign_of(p, time.high);
     }
@@ -201,7 +211,7 @@ struct Judgement {
     Feature feature = Feature::face;
     int index = 0;
     Time time;
-    int roots = 0;            ///< of f in [0, 1]
+    int roots = 0;  ///< of f in [0, 1]
     bool always_in_plane = false;
 };
 
@@ -292,7 +302,8 @@ class Judge {
     static bool counts(Contact contact, bool start, bool end, int before, int after, Feature feature) {
         const bool border = feature != Feature::face;
         switch (contact) {
-            case Contact::closed: return true;
+            case Contact::closed:
+                return true;
             case Contact::front:
                 if (start || end) return start && after < 0;
                 return (before > 0 && after < 0) || (border && !(before < 0 && after > 0));

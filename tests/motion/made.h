@@ -27,8 +27,10 @@ class QueryMaker {
     Query make(Kind kind) {
         Query q;
         switch (kind) {
-            case Kind::lattice: return on_lattice(number(1, 3));
-            case Kind::touching: return touching();
+            case Kind::lattice:
+                return on_lattice(number(1, 3));
+            case Kind::touching:
+                return touching();
             case Kind::near_miss: {
                 q = touching();
                 for (int changes = number(1, 2); changes > 0; --changes) {
@@ -42,7 +44,8 @@ class QueryMaker {
                 each(q, [](detail::Point& p) { p[2] = 0; });
                 return sheared(q);
             }
-            case Kind::turning: return turning();
+            case Kind::turning:
+                return turning();
             case Kind::flat: {  // no area, at one time or always
                 q = on_lattice(2);
                 const int i = number(0, 1);
@@ -51,7 +54,9 @@ class QueryMaker {
                 return q;
             }
             case Kind::anywhere: {
-                each(q, [this](detail::Point& p) { for (double& x : p) x = number(-1000000, 1000000) * 0x1p-20; });
+                each(q, [this](detail::Point& p) {
+                    for (double& x : p) x = number(-1000000, 1000000) * 0x1p-20;
+                });
                 return q;
             }
             case Kind::unequal: {  // exponents far apart
@@ -76,8 +81,7 @@ class QueryMaker {
     double& any_coordinate(Query& q) {
         const int i = number(0, 1);
         const int which = number(0, 3);
-        detail::Point& p =
-            which == 3 ? q.point.at[i] : q.triangle.at[i][static_cast<std::size_t>(which)];
+        detail::Point& p = which == 3 ? q.point.at[i] : q.triangle.at[i][static_cast<std::size_t>(which)];
         return p[static_cast<std::size_t>(number(0, 2))];
     }
     Query on_lattice(int size) {
@@ -93,8 +97,10 @@ class QueryMaker {
         const int b = number(-2, 2);
         each(q, [&](detail::Point& p) { p[2] += a * p[0] + b * p[1]; });
         const int turns = number(0, 2);
-        each(q, [&](detail::Point& p) { p = {p[static_cast<std::size_t>(turns)], p[static_cast<std::size_t>((turns + 1) % 3)],
-                                             p[static_cast<std::size_t>((turns + 2) % 3)]}; });
+        each(q, [&](detail::Point& p) {
+            p = {p[static_cast<std::size_t>(turns)], p[static_cast<std::size_t>((turns + 1) % 3)],
+                 p[static_cast<std::size_t>((turns + 2) % 3)]};
+        });
         return q;
     }
     // Exactly on a place of the triangle at a time i / 8: on multiples of 2^-20 all of it is exact.

@@ -33,7 +33,8 @@ detail::MovingTriangle another(QueryMaker& maker, const Query& q, Kind kind) {
             x = std::nextafter(x, 100.0);
             break;
         }
-        default: other = maker.make(kind).triangle;
+        default:
+            other = maker.make(kind).triangle;
     }
     return other;
 }
@@ -56,9 +57,8 @@ void check_order(int rounds, unsigned seed) {
                           truth.time.compare(mpq_class(time)));
         }
         if (!one.hit || !two.hit) continue;
-        const int truth = Judge(q.point, q.triangle)
-                              .decide(contact)
-                              .time.compare(Judge(q.point, other).decide(contact).time);
+        const int truth =
+            Judge(q.point, q.triangle).decide(contact).time.compare(Judge(q.point, other).decide(contact).time);
         ASSERT_EQ(detail::compare_impacts(q.point, contact, q.triangle, one, other, two), truth);
         ASSERT_EQ(detail::compare_impacts(q.point, contact, other, two, q.triangle, one), -truth);
         ++orders[truth + 1];

@@ -23,7 +23,8 @@ inline std::vector<std::string> scenes_of(const std::filesystem::path& folder) {
     std::vector<std::string> scenes;
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-        if (std::filesystem::exists(entry.path() / "vertex_face.csv")) scenes.push_back(entry.path().filename().string());
+        if (std::filesystem::exists(entry.path() / "vertex_face.csv"))
+            scenes.push_back(entry.path().filename().string());
     std::sort(scenes.begin(), scenes.end());
     return scenes;
 }
