@@ -2,7 +2,9 @@
 //
 // Tried first is where the contact's place on the mesh goes, a grain off the face. What is in the way of that, found by
 // a sweep to it, is kept off as well, by its plane at the end of the step, until nothing is: as in a corner, where two
-// or three faces meet. Each place that is tried is asked about as the caller would, so only what is clear is returned.
+// or three faces meet. A way along a face that turns leaves the face's plane in between, by the square of the turn;
+// so the next one to be tried is where the start itself would be carried by the face, which has no way along it. Each
+// place that is tried is asked about as the caller would, so only what is clear is returned.
 #include <query/moving_sweep.h>
 
 #include <algorithm>
@@ -81,30 +83,31 @@ bool find_place(const MovingScene<Scalar>& scene, const MovingPoint& point, cons
     Point ahead{};  // where the contact's place on the mesh goes
     for (std::size_t c = 0; c < 3; ++c) ahead = moved(ahead, first.triangle.at[1][c], values.weights[c]);
 
-    Guards guards;
-    bool guarded = guards.add(point, first);
-    double distance = scene.grain;
-    for (int round = 0; round < 2 * static_cast<int>(Guards::k_most) && guarded; ++round) {
-        const Point to = guards.in_front(ahead, distance);
-        in_the_way = {};
-        if (clear(to, false)) return true;
-        ++counters.retreats;
-        if (in_the_way.number == first.number || round >= static_cast<int>(Guards::k_most)) distance *= 2;
-        guarded = guards.add(point, in_the_way) || round < static_cast<int>(Guards::k_most);
+    const Point along = carried(point, first, values);
+    for (const Point& base : {ahead, along}) {
+        Guards guards;
+        bool guarded = guards.add(point, first);
+        double distance = scene.grain;
+        for (std::size_t round = 0; round < Guards::k_most && guarded; ++round) {
+            in_the_way = {};
+            if (clear(guards.in_front(base, distance), false)) return true;
+            ++counters.retreats;
+            if (in_the_way.number == first.number) distance *= 16;
+            guarded = guards.add(point, in_the_way);
+        }
     }
-    // Off the mesh in all directions, further each time.
-    distance = scene.grain;
-    for (int round = 0; round < 12; ++round, distance *= 4)
+    // In all directions, further each time.
+    double distance = scene.grain;
+    for (int round = 0; round < 14; ++round, distance *= 8)
         for (int direction = 0; direction < 27; ++direction) {
             const Point way{static_cast<double>(direction % 3 - 1), static_cast<double>(direction / 3 % 3 - 1),
                             static_cast<double>(direction / 9 - 1)};
-            if (clear(moved(ahead, way, distance), true)) return true;
+            if (clear(moved(along, way, distance), true)) return true;
             ++counters.retreats;
         }
-    // On the mesh itself, for a start that lies on a vertex and goes with it; else as far from the surface as the start
-    // is: clear where all that is near moves as one.
+    // On the mesh itself, for a start that lies on a vertex and goes with it.
     if (clear(ahead, true)) return true;
-    return clear(moved(point.at[0], values.motion, 1), true);
+    return clear(along, true);
 }
 
 template bool find_place(const MovingScene<float>&, const MovingPoint&, const MovingCandidate&, const MovingValues&,

@@ -41,8 +41,12 @@ template <class Scalar>
 /// The same values where the time is `time`.
 [[nodiscard]] MovingValues values_at(const MovingPoint& point, const MovingCandidate& candidate, double time);
 
-/// Looks for a place at the end of the step; false where none is verified: then it is the start, moved with the
-/// surface.
+/// Where the point would be at the end of the step if it moved with the triangle from the start on: as far off its
+/// plane, and above the same place of it. Where the triangle has no area at an end it is moved as the contact's place.
+[[nodiscard]] Point carried(const MovingPoint& point, const MovingCandidate& candidate, const MovingValues& values);
+
+/// Looks for a place at the end of the step; false where none is verified: then it is the start, carried
+/// along.
 template <class Scalar>
 [[nodiscard]] bool find_place(const MovingScene<Scalar>& scene, const MovingPoint& point, const MovingCandidate& first,
                               const MovingValues& values, const QueryOptions& options, QueryCounters& counters,

@@ -85,6 +85,27 @@ MovingValues values_at(const MovingPoint& point, const MovingCandidate& candidat
     return values;
 }
 
+Point carried(const MovingPoint& point, const MovingCandidate& candidate, const MovingValues& values) {
+    const Corners& before = candidate.triangle.at[0];
+    const Corners& after = candidate.triangle.at[1];
+    Point p = minus(before[1], before[0]), q = minus(before[2], before[0]), s = minus(point.at[0], before[0]);
+    const double size = std::max({largest(p), largest(q), largest(s)});
+    scale(p, q, s);
+    const Point n = cross(p, q);
+    const double square = dot(n, n);
+    const Point turned = values_at(point, candidate, 1).normal;
+    Point to;
+    for (std::size_t k = 0; k < 3; ++k) to[k] = point.at[0][k] + values.motion[k];
+    if (!(square > 0) || turned == Point{}) return to;
+    const double b = dot(cross(s, q), n) / square;
+    const double c = dot(cross(p, s), n) / square;
+    const double unit = largest(s) > 0 ? largest(minus(point.at[0], before[0])) / largest(s) : size;
+    const double off = dot(s, n) / std::sqrt(square) * unit;
+    for (std::size_t k = 0; k < 3; ++k)
+        to[k] = after[0][k] + b * (after[1][k] - after[0][k]) + c * (after[2][k] - after[0][k]) + off * turned[k];
+    return to;
+}
+
 MovingValues values_of(const MovingPoint& point, Sides sides, const MovingCandidate& candidate) {
     const Impact sharp = sharpened(point, contact_of(sides), candidate.triangle, candidate.impact);
     MovingValues values = values_at(point, candidate, sharp.earliest + (sharp.latest - sharp.earliest) / 2);
