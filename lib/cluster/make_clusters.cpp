@@ -54,20 +54,6 @@ Scalar unit_by_extent(const QuadBox<Scalar>& box) {
     return extent > 0 ? power_to_reach(-1, extent) : Scalar(1);
 }
 
-// A mesh in a plane across an axis may be so small beside its distance from the origin that its coordinates overflow in
-// this unit. (Where it has an extent along each axis that is at most 2^53 times as much.)
-template <class Scalar>
-Scalar unit_of(const QuadBox<Scalar>& box) {
-    const Scalar unit = unit_by_extent(box);
-    Scalar largest = 0;
-    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
-    constexpr int k_most = std::numeric_limits<Scalar>::max_exponent - 4;
-    if (largest >= 1 && std::ilogb(largest) + std::ilogb(unit) >= k_most)
-        throw MeshError("the mesh is too small for its distance from the origin: a coordinate is more than 2^" +
-                        std::to_string(k_most - 1) + " times its largest extent");
-    return unit;
-}
-
 template <class Scalar>
 void write_empty_record(Clusters<Scalar>& clusters, std::size_t place) {
     Scalar* record = clusters.records.data() + k_row_count * place;
@@ -98,7 +84,7 @@ void join(std::vector<Part<Scalar>>& parts, ClusterBuild<Scalar>& build, const E
         build.high[k] = all.high[k];
         build.largest = std::max({build.largest, std::abs(build.low[k]), std::abs(build.high[k])});
     }
-    const Scalar unit = unit_of(all);
+    const Scalar unit = scene_unit(all);
     build.unit = unit;
     build.boxes = RawArray<ClusterBox<Scalar>>(count);
     executor(parts.size(), [&](std::size_t p) {
@@ -115,6 +101,20 @@ void join(std::vector<Part<Scalar>>& parts, ClusterBuild<Scalar>& build, const E
 }
 
 }  // namespace
+
+// A mesh in a plane across an axis may be so small beside its distance from the origin that its coordinates overflow in
+// this unit. (Where it has an extent along each axis that is at most 2^53 times as much.)
+template <class Scalar>
+Scalar scene_unit(const QuadBox<Scalar>& box) {
+    const Scalar unit = unit_by_extent(box);
+    Scalar largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
+    constexpr int k_most = std::numeric_limits<Scalar>::max_exponent - 4;
+    if (largest >= 1 && std::ilogb(largest) + std::ilogb(unit) >= k_most)
+        throw MeshError("the mesh is too small for its distance from the origin: a coordinate is more than 2^" +
+                        std::to_string(k_most - 1) + " times its largest extent");
+    return unit;
+}
 
 template <class Scalar>
 ClusterBuild<Scalar> make_clusters(const PlainMesh<Scalar>& mesh, bool (*has_zero_area)(const Corners&),
@@ -155,6 +155,8 @@ ClusterBuild<Scalar> make_clusters(const PlainMesh<Scalar>& mesh, bool (*has_zer
     return build;
 }
 
+template float scene_unit(const QuadBox<float>&);
+template double scene_unit(const QuadBox<double>&);
 template ClusterBuild<float> make_clusters(const PlainMesh<float>&, bool (*)(const Corners&), const Executor&);
 template ClusterBuild<double> make_clusters(const PlainMesh<double>&, bool (*)(const Corners&), const Executor&);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <cluster/clusters.h>
+#include <cluster/quad.h>
 #include <pierce/executor.h>
 #include <plain_mesh.h>
 
@@ -31,5 +32,10 @@ struct ClusterBuild {
 template <class Scalar>
 [[nodiscard]] ClusterBuild<Scalar> make_clusters(const PlainMesh<Scalar>& mesh, bool (*has_zero_area)(const Corners&),
                                                  const Executor& executor);
+
+/// `ClusterBuild::unit` for a scene of this box. Throws `MeshError` where the box is too small for its distance from
+/// the origin.
+template <class Scalar>
+[[nodiscard]] Scalar scene_unit(const QuadBox<Scalar>& box);
 
 }  // namespace pierce::detail

@@ -42,11 +42,12 @@ template <class Number>
 
 using HasZeroArea = bool (*)(const Corners&);
 
-template <class Scalar>
+/// `Entry`: of the order, whose low four bytes are a triangle's number.
+template <class Scalar, class Entry = std::uint64_t>
 class ClusterWriter {
   public:
     /// `unit` makes the scene about 1 wide; what has a larger `large_area` then is split where that pays.
-    ClusterWriter(const CornerReader<Scalar>& reader, const std::uint64_t* entries, Scalar unit, Scalar large_area,
+    ClusterWriter(const CornerReader<Scalar>& reader, const Entry* entries, Scalar unit, Scalar large_area,
                   HasZeroArea has_zero_area, Scalar* records)
         : reader_(reader),
           entries_(entries),
@@ -59,15 +60,7 @@ class ClusterWriter {
     /// be asked of memory ahead. Numbers of those without area are added to `degenerate`.
     void write(std::uint32_t begin, std::uint32_t end, std::uint32_t key, std::uint32_t last,
                std::vector<ClusterBox<Scalar>>& boxes, std::vector<std::uint32_t>& degenerate) {
-        count_ = end - begin;
-        QuadBox<Scalar> all;
-        for (unsigned i = 0; i < count_; i += 4) gather(begin, i, last, all);
-        if (!all_have_area_) {
-            all_have_area_ = true;
-            leave_out_degenerate(degenerate);
-            find_boxes();
-            all = box_of_part(0, count_);
-        }
+        const QuadBox<Scalar> all = gather_all(begin, end, last, degenerate);
         if (count_ == 0) return;
         if (const Scalar a = area(all); count_ > 1 && a > large_area_) {
             find_boxes();
@@ -78,11 +71,37 @@ class ClusterWriter {
         }
     }
 
+    /// The same for what is one record in any case, at the place `begin`. False: none of them has an area, and nothing
+    /// is written but `degenerate`.
+    bool rewrite(std::uint32_t begin, std::uint32_t end, std::uint32_t last, ClusterBox<Scalar>& box,
+                 std::vector<std::uint32_t>& degenerate) {
+        const QuadBox<Scalar> all = gather_all(begin, end, last, degenerate);
+        if (count_ == 0) return false;
+        write_rows(begin);
+        set_box(box, all);
+        box.ref = cluster_ref(begin, count_);
+        return true;
+    }
+
   private:
+    // Returns the box of those that have area.
+    [[gnu::always_inline]] QuadBox<Scalar> gather_all(std::uint32_t begin, std::uint32_t end, std::uint32_t last,
+                                                      std::vector<std::uint32_t>& degenerate) {
+        count_ = end - begin;
+        QuadBox<Scalar> all;
+        for (unsigned i = 0; i < count_; i += 4) gather(begin, i, last, all);
+        if (!all_have_area_) {
+            all_have_area_ = true;
+            leave_out_degenerate(degenerate);
+            find_boxes();
+            all = box_of_part(0, count_);
+        }
+        return all;
+    }
     // Four triangles from `from` on, or the last ones, to the rows; lanes behind the last have it as well.
     [[gnu::always_inline]] void gather(std::uint32_t begin, unsigned from, std::uint32_t last, QuadBox<Scalar>& all) {
         const CornerReader<Scalar> reader = reader_;
-        const std::uint64_t* const entries = entries_;
+        const Entry* const entries = entries_;
         const auto number_at = [&](std::uint32_t i) {
             return static_cast<std::uint32_t>(entries[std::min(i, last - 1)]);
         };
@@ -241,7 +260,7 @@ class ClusterWriter {
     }
 
     CornerReader<Scalar> reader_;
-    const std::uint64_t* entries_;
+    const Entry* entries_;
     Scalar unit_;
     Scalar large_area_;
     HasZeroArea has_zero_area_;

@@ -10,4 +10,10 @@ namespace pierce::detail {
 template <class Scalar>
 void check_mesh(const PlainMesh<Scalar>& mesh, const Executor& executor);
 
+/// The part of it that new positions need.
+template <class Scalar>
+void check_positions(std::span<const Vec3<Scalar>> positions, const Executor& executor);
+template <class Scalar>
+void check_position(std::size_t vertex, const Vec3<Scalar>& position);
+
 }  // namespace pierce::detail

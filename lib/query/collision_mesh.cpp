@@ -88,6 +88,8 @@ template <class Scalar>
 CollisionMesh<Scalar>::CollisionMesh(const MeshView<Scalar>& mesh, const BuildOptions& options) : impl_(new Impl) {
     const StandardArithmetic standard;
     impl_->scene = make_scene(mesh, options);
+    impl_->options.cell_size = options.cell_size;
+    impl_->options.max_grid_bytes = options.max_grid_bytes;
 }
 
 template <class Scalar>
@@ -232,7 +234,7 @@ MeshStatistics CollisionMesh<Scalar>::statistics() const noexcept {
     s.grid_references = scene.grid.reference_count();
     if (!impl_->built()) return s;
     s.backend = scene.backend->name;
-    s.bytes = scene.bytes();
+    s.bytes = scene.bytes() + (impl_->refit ? impl_->refit->bytes() : 0);
     s.invalid_queries = impl_->invalid_queries.load(std::memory_order_relaxed);
     return s;
 }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 
 #include <pierce/collision_mesh.h>
+#include <query/refit.h>
 #include <query/ways.h>
 
 namespace pierce {
@@ -11,6 +13,10 @@ namespace pierce {
 template <class Scalar>
 struct CollisionMesh<Scalar>::Impl {
     detail::Scene<Scalar> scene;
+    /// Of what the mesh was built with: what a grid that is made again needs.
+    BuildOptions options;
+    /// From the first refit on, until the mesh is built anew.
+    std::unique_ptr<detail::Refit<Scalar>> refit;
     mutable std::atomic<std::uint64_t> invalid_queries = 0;
 
     /// What meshes share that were not built, or are moved from. It has no triangle, and counts nothing.

@@ -2,10 +2,8 @@
 #include <query/scene.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
-#include <exception>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -14,10 +12,10 @@
 #include <chunks.h>
 #include <cluster/frame.h>
 #include <cluster/make_clusters.h>
-#include <environment.h>
 #include <exact/decide.h>
 #include <mesh/check_mesh.h>
 #include <query/place.h>
+#include <query/standard_executor.h>
 #include <tree/make_tree.h>
 
 namespace pierce::detail {
@@ -64,6 +62,50 @@ Broadphase choose_broadphase(Broadphase wanted) {
                                 "' for PIERCE_BROADPHASE, which takes: tree grid");
 }
 
+// Whether no build from these positions can throw `MeshError`: where coordinates that are not 0 are within 2^45 of 1
+// (double: 2^450), their differences that are not 0 are above 2^-69 (2^-503), so a mesh is at most 2^114 (2^953) of its
+// extents from the origin; 2^121 (2^1017) are too many (cluster/make_clusters.cpp).
+template <class Scalar>
+bool always_builds(std::span<const Vec3<Scalar>> positions) {
+    constexpr Scalar k_most = sizeof(Scalar) == sizeof(float) ? Scalar(0x1p45) : Scalar(0x1p450);
+    Scalar largest = 0;
+    Scalar least = k_most;
+    for (const Vec3<Scalar>& p : positions)
+        for (int k = 0; k < 3; ++k) {
+            const Scalar size = std::abs(p[k]);
+            largest = std::max(largest, size);
+            least = std::min(least, size == 0 ? k_most : size);
+        }
+    return largest <= k_most && least >= 1 / k_most;
+}
+
+// Clusters and broadphase, of a mesh whose triangles the scene need not have yet.
+template <class Scalar>
+void build(const PlainMesh<Scalar>& mesh, const BuildOptions& options, Scene<Scalar>& scene, const Executor& executor) {
+    ClusterBuild<Scalar> built = make_clusters(mesh, has_zero_area, executor);
+    scene.clusters = std::move(built.clusters);
+    scene.cluster_refs = RawArray<ClusterRef>(built.boxes.size());
+    each_chunk(executor, built.boxes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) scene.cluster_refs[i] = built.boxes[i].ref;
+    });
+    if (!scene.empty()) {
+        QuadBox<Scalar> box;
+        for (int k = 0; k < 3; ++k) {
+            box.low[k] = static_cast<Scalar>(built.low[k]);
+            box.high[k] = static_cast<Scalar>(built.high[k]);
+        }
+        set_bounds(scene, box, frame_of(built));
+        const std::span boxes(built.boxes.data(), built.boxes.size());
+        if (scene.broadphase == Broadphase::grid)
+            scene.grid = make_grid<Scalar>(boxes, scene.frame, options, executor);
+        else
+            scene.tree = make_tree(boxes, scene.clusters.empty, scene.frame, executor);
+    }
+    keep_degenerate(mesh, scene, built.degenerate);
+}
+
+}  // namespace
+
 template <class Scalar>
 UniformGrid make_grid(std::span<const ClusterBox<Scalar>> boxes, const Frame& frame, const BuildOptions& options,
                       const Executor& executor) {
@@ -72,8 +114,6 @@ UniformGrid make_grid(std::span<const ClusterBox<Scalar>> boxes, const Frame& fr
     if (options.cell_size > 0) size = std::max(size, std::numeric_limits<double>::min());
     return UniformGrid::make(boxes, frame, size, options.max_grid_bytes, executor);
 }
-
-}  // namespace
 
 template <class Scalar>
 std::size_t Scene<Scalar>::bytes() const {
@@ -84,22 +124,8 @@ std::size_t Scene<Scalar>::bytes() const {
 
 template <class Scalar>
 Scene<Scalar> make_scene(const MeshView<Scalar>& view, const BuildOptions& options) {
-    // The caller's threads have floating-point environments of their own, and no use for what is thrown when memory
-    // runs out.
-    const auto in_standard_arithmetic = [&](std::size_t parts, Task task) {
-        std::atomic_flag failed;
-        std::exception_ptr failure;
-        options.executor(parts, [&](std::size_t part) {
-            const StandardArithmetic standard;
-            try {
-                task(part);
-            } catch (...) {
-                if (!failed.test_and_set()) failure = std::current_exception();
-            }
-        });
-        if (failure) std::rethrow_exception(failure);
-    };
-    const Executor executor = options.executor ? Executor(in_standard_arithmetic) : Executor();
+    const StandardExecutor standard_executor(options.executor);
+    const Executor executor = standard_executor.executor();
     if (view.triangles.size() >= k_most_triangles)  // a record's place has 28 bits (cluster/record.h)
         throw MeshError("the mesh has " + std::to_string(view.triangles.size()) + " triangles; " +
                         std::to_string(k_most_triangles - 1) + " are the most it can have");
@@ -118,33 +144,59 @@ Scene<Scalar> make_scene(const MeshView<Scalar>& view, const BuildOptions& optio
     scene.faces.assign(mesh.faces.begin(), mesh.faces.end());
     scene.vertex_count = mesh.positions.size();
 
-    ClusterBuild<Scalar> built = make_clusters(mesh, has_zero_area, executor);
-    scene.clusters = std::move(built.clusters);
-    scene.cluster_refs = RawArray<ClusterRef>(built.boxes.size());
-    each_chunk(executor, built.boxes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) scene.cluster_refs[i] = built.boxes[i].ref;
-    });
-    if (!scene.empty()) {
-        for (std::size_t k = 0; k < 3; ++k) scene.bounds.low[k] = built.low[k], scene.bounds.high[k] = built.high[k];
-        scene.grain = grain_of<Scalar>(static_cast<double>(built.largest));
-        scene.near_bound = near_margin(scene.grain);
-        scene.frame = frame_of(built);
-        scene.frame.noise = std::max(scene.near_bound * built.unit, std::numeric_limits<double>::min());
-        const std::span boxes(built.boxes.data(), built.boxes.size());
-        if (scene.broadphase == Broadphase::grid)
-            scene.grid = make_grid<Scalar>(boxes, scene.frame, options, executor);
-        else
-            scene.tree = make_tree(boxes, scene.clusters.empty, scene.frame, executor);
-    }
+    build(mesh, options, scene, executor);
     copy_triangles(mesh, scene, executor);
-    keep_degenerate(mesh, scene, built.degenerate);
     scene.face_count = count_faces(scene);
     return scene;
+}
+
+template <class Scalar>
+void rebuild_scene(Scene<Scalar>& scene, std::span<const Vec3<Scalar>> positions, const BuildOptions& options,
+                   const Executor& executor) {
+    Scene<Scalar> built;
+    built.broadphase = scene.broadphase;
+    built.backend = scene.backend;
+    built.vertex_count = scene.vertex_count;
+    built.face_count = scene.face_count;
+    const PlainMesh<Scalar> mesh{positions, {scene.triangles.data(), scene.triangles.size()}, {}};
+    if (always_builds(positions)) {
+        // What was there before is used again while caches still have it (6 % of the time). Nobody reads it: positions
+        // are the caller's, or Refit's.
+        scene.cluster_refs = {};
+        scene.clusters.records = {};
+        scene.tree = {};
+        scene.grid = {};
+    }
+    build(mesh, options, built, executor);
+    built.triangles = std::move(scene.triangles);
+    built.faces = std::move(scene.faces);
+    scene = std::move(built);
+}
+
+template <class Scalar>
+void set_bounds(Scene<Scalar>& scene, const QuadBox<Scalar>& box, const Frame& frame) {
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) {
+        const std::size_t axis = static_cast<std::size_t>(k);
+        scene.bounds.low[axis] = static_cast<double>(box.low[k]);
+        scene.bounds.high[axis] = static_cast<double>(box.high[k]);
+        largest = std::max({largest, std::abs(scene.bounds.low[axis]), std::abs(scene.bounds.high[axis])});
+    }
+    scene.grain = grain_of<Scalar>(largest);
+    scene.near_bound = near_margin(scene.grain);
+    scene.frame = frame;
+    scene.frame.noise = std::max(scene.near_bound * frame.unit, std::numeric_limits<double>::min());
 }
 
 template struct Scene<float>;
 template struct Scene<double>;
 template Scene<float> make_scene(const MeshView<float>&, const BuildOptions&);
+template void rebuild_scene(Scene<float>&, std::span<const Vec3<float>>, const BuildOptions&, const Executor&);
+template void set_bounds(Scene<float>&, const QuadBox<float>&, const Frame&);
+template UniformGrid make_grid(std::span<const ClusterBox<float>>, const Frame&, const BuildOptions&, const Executor&);
 template Scene<double> make_scene(const MeshView<double>&, const BuildOptions&);
+template void rebuild_scene(Scene<double>&, std::span<const Vec3<double>>, const BuildOptions&, const Executor&);
+template void set_bounds(Scene<double>&, const QuadBox<double>&, const Frame&);
+template UniformGrid make_grid(std::span<const ClusterBox<double>>, const Frame&, const BuildOptions&, const Executor&);
 
 }  // namespace pierce::detail

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <cluster/clusters.h>
+#include <cluster/quad.h>
 #include <grid/uniform_grid.h>
 #include <kernel/backends.h>
 #include <pierce/mesh_view.h>
@@ -107,5 +108,21 @@ struct Scene {
 /// Not inlined: see engine.h.
 template <class Scalar>
 [[nodiscard]] [[gnu::noinline]] Scene<Scalar> make_scene(const MeshView<Scalar>& mesh, const BuildOptions& options);
+
+/// Builds the same triangles again, at other positions, which are finite. Of `options` only the grid's are looked at,
+/// and `executor` is in standard arithmetic. The scene is as it was where this throws `MeshError`; with std::bad_alloc
+/// it may be of no use any more.
+template <class Scalar>
+[[gnu::noinline]] void rebuild_scene(Scene<Scalar>& scene, std::span<const Vec3<Scalar>> positions,
+                                     const BuildOptions& options, const Executor& executor);
+
+/// What a scene that is not empty keeps of its bounds: `box` in the caller's coordinates, `frame` without its noise.
+template <class Scalar>
+void set_bounds(Scene<Scalar>& scene, const QuadBox<Scalar>& box, const Frame& frame);
+
+/// The grid of boxes in scene units.
+template <class Scalar>
+[[nodiscard]] UniformGrid make_grid(std::span<const ClusterBox<Scalar>> boxes, const Frame& frame,
+                                    const BuildOptions& options, const Executor& executor);
 
 }  // namespace pierce::detail

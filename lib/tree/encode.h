@@ -21,14 +21,18 @@ template <class Bound>
     }
 }
 
-/// Places without a child, from `count` on, have a low bound above the high one.
+/// A place without a child has a low bound above the high one.
+template <class Bound>
+void close_place(Bound (&bounds)[6][k_children], unsigned i) {
+    for (int k = 0; k < 3; ++k) {
+        bounds[2 * k][i] = std::numeric_limits<Bound>::max();
+        bounds[2 * k + 1][i] = 0;
+    }
+}
+/// Those from `count` on.
 template <class Bound>
 void close_places(Bound (&bounds)[6][k_children], unsigned count) {
-    for (unsigned i = count; i < k_children; ++i)
-        for (int k = 0; k < 3; ++k) {
-            bounds[2 * k][i] = std::numeric_limits<Bound>::max();
-            bounds[2 * k + 1][i] = 0;
-        }
+    for (unsigned i = count; i < k_children; ++i) close_place(bounds, i);
 }
 
 /// Bounds on the scene's lattice. x - low is within 2^-53 of itself, of at most 65536 steps, so within 2^-37 steps;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <environment.h>
-#include <query/collision_mesh_impl.h>
+#include <query/inside.h>
 #include <world/engine.h>
 #include <world/world_impl.h>
 
@@ -96,7 +96,7 @@ MeshId World<Scalar>::add(Mesh mesh, const InstanceOptions<Scalar>& options) {
     const StandardArithmetic standard;
     if (mesh == nullptr) throw std::invalid_argument("a mesh for a world is null");
     Instance<Scalar> instance;
-    instance.scene = &mesh->impl_->scene;
+    instance.scene = &Inside::of(*mesh).scene;
     instance.owner = std::move(mesh);
     instance.placement = make_placement(options.pose);
     instance.layers = options.layers;
@@ -117,7 +117,7 @@ void World<Scalar>::replace(MeshId id, Mesh mesh) {
     const StandardArithmetic standard;
     const std::uint32_t index = index_of(*impl_, id);
     if (mesh == nullptr) throw std::invalid_argument("a mesh for a world is null");
-    const Scene<Scalar>& scene = mesh->impl_->scene;
+    const Scene<Scalar>& scene = Inside::of(*mesh).scene;
     impl_->scene.put(index, std::move(mesh), scene, impl_->scene.instances[index].placement);
 }
 

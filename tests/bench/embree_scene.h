@@ -4,6 +4,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <embree3/rtcore.h>
 
@@ -38,6 +39,7 @@ class EmbreeDevice {
 struct EmbreeOptions {
     RTCSceneFlags flags = RTC_SCENE_FLAG_NONE;
     RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM;
+    bool refits = false;  ///< the geometry is refitted where it is changed, and not built again
 };
 
 /// One geometry of triangles, committed, in buffers that Embree owns.
@@ -47,8 +49,8 @@ class EmbreeScene {
         : scene_(rtcNewScene(device.get())), geometry_(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE)) {
         rtcSetSceneFlags(scene_, options.flags);
         rtcSetSceneBuildQuality(scene_, options.quality);
-        rtcSetGeometryBuildQuality(geometry_, options.quality);
-        void* const vertices = rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+        rtcSetGeometryBuildQuality(geometry_, options.refits ? RTC_BUILD_QUALITY_REFIT : options.quality);
+        void* const vertices = vertices_ = rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                        3 * sizeof(float), mesh.positions.size());
         void* const indices = rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                       3 * sizeof(unsigned), mesh.triangles.size());
@@ -71,7 +73,12 @@ class EmbreeScene {
 
     [[nodiscard]] RTCScene get() const { return scene_; }
 
-    /// Builds again, as for a mesh whose vertices have moved.
+    /// New positions, which `rebuild` takes up.
+    void place(const std::vector<Vec3<float>>& positions) const {
+        std::memcpy(vertices_, positions.data(), positions.size() * sizeof positions[0]);
+    }
+
+    /// Builds again, or refits, as for a mesh whose vertices have moved.
     void rebuild() const {
         rtcUpdateGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0);
         rtcCommitGeometry(geometry_);
@@ -81,6 +88,7 @@ class EmbreeScene {
   private:
     RTCScene scene_;
     RTCGeometry geometry_;
+    void* vertices_ = nullptr;
 };
 
 /// Everything that rtcOccluded1 reads: a segment is the ray from 0 to 1 along `to - from`.

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdio>
 
+#include <pierce/deforming_mesh.h>
 #include <pierce/regions.h>
 #include <pierce/world.h>
 #include <pierce/response.h>
@@ -66,6 +67,15 @@ void check() {
     });
     expect_none("sweeps to plain hits", [&] { mesh.sweeps(segments, plain, options, reversed); });
     expect_none("first_hits to arrays", [&] { mesh.first_hits(segments, arrays, options, reversed); });
+    DeformingMesh<Scalar> moving(soup.view());
+    std::vector<Vec3<Scalar>> after = soup.positions;
+    for (std::size_t v = 0; v < after.size(); v += 2) after[v] += Vec3<Scalar>::Constant(Scalar(0.125));
+    moving.begin_step(after);
+    std::vector<std::optional<SweepHit<Scalar>>> sweep_hits(segments.size());
+    expect_none("sweeps over a step", [&] {
+        moving.sweeps(segments, sweep_hits, options, reversed);
+        for (std::size_t i = 0; i < segments.size(); i += 50) sweep_hits[i] = moving.sweep(segments[i]);
+    });
     std::array<Hit<Scalar>, 8> all;
     expect_none("single calls", [&] {
         for (std::size_t i = 0; i < segments.size(); i += 5) {

@@ -7,6 +7,7 @@
 
 #include <motion/moving.h>
 #include <pierce/collision_mesh.h>
+#include <pierce/deforming_mesh.h>
 #include <pierce/regions.h>
 #include <pierce/world.h>
 #include <pierce/response.h>
@@ -131,6 +132,25 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
     for (const auto& hit : first)
         if (hit) hash.add(*hit);
     for (const std::uint8_t hit : any) hash.add(hit);
+
+    // A step in which vertices move, some of them much.
+    std::vector<Vec3<Scalar>> after = soup.positions;
+    for (std::size_t v = 0; v < after.size(); ++v) {
+        const Vec3<double> by = scale * 0x1p-5 * random.in_cube();
+        if (v % 7 != 0) after[v] += by.cast<Scalar>();
+    }
+    DeformingMesh<Scalar> moving(soup.view());
+    moving.begin_step(after);
+    const DeformationStep<Scalar> step = moving.step();
+    for (std::size_t i = 0; i < segments.size(); i += 4) {
+        if (const auto hit = step.after().first_hit(segments[i])) hash.add(*hit);
+        const auto hit = step.sweep(segments[i], {.sides = Sides::both});
+        if (!hit) continue;
+        hash.add(hit->triangle);
+        hash.add(std::bit_cast<Whole>(hit->time));
+        for (const auto& x : {hit->place, hit->position, hit->normal, hit->barycentric, hit->surface_motion})
+            for (int k = 0; k < 3; ++k) hash.add(std::bit_cast<Whole>(x[k]));
+    }
 }
 
 // The mesh many times, turned by small quaternions (no sines) and as it is.
