@@ -16,7 +16,8 @@ namespace pierce::detail {
 }
 
 /// The parameter of a hit at a fraction. Where that is subnormal, or so small that it was rounded to 0, the parameter
-/// need not be: the end of a ray's way may be 2^2000 times as far away as the hit. `corners` gives those of the triangle.
+/// need not be: the end of a ray's way may be 2^2000 times as far away as the hit. `corners` gives those of the
+/// triangle.
 template <class CornersOf>
 [[nodiscard]] double to_parameter(const Path& path, double fraction, bool at_start, CornersOf&& corners) {
     if (!path.ray) return fraction;

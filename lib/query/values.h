@@ -50,8 +50,8 @@ inline void measure_exactly(const Path& path, const Corners& corners, QueryCount
     values.weights[3] = exact.fraction;
 }
 
-/// Where a hit lies, in double. Roundings are those of the largest number of a sum: far ends of a path say less than the
-/// triangle, far corners less than the path.
+/// Where a hit lies, in double. Roundings are those of the largest number of a sum: far ends of a path say less than
+/// the triangle, far corners less than the path.
 [[nodiscard]] inline Point rough_position(const Path& path, const Corners& corners, const Values& values) {
     Point position{};
     for (std::size_t k = 0; k < 3; ++k) {

@@ -20,8 +20,8 @@
 // For D < 0 the way is clear from 0 up to -D / (max(-m, 0) + 16 e W) (1 - 4 e): a sum, a quotient and a product.
 // For m > 16 e W it is from t on for ever if t (m - 16 e W) (1 - 4 e) >= D.
 //
-// A place is certainly nearer than r if |x - y| (1 + 16 e) + 64 e M < r. x = t w is within e of itself; y = a_0 + u (a_1
-// - a_0) + v (a_2 - a_0) with rounded u, v >= 0 is a point of the triangle but for a sum u + v that is rounded: a
+// A place is certainly nearer than r if |x - y| (1 + 16 e) + 64 e M < r. x = t w is within e of itself; y = a_0 + u
+// (a_1 - a_0) + v (a_2 - a_0) with rounded u, v >= 0 is a point of the triangle but for a sum u + v that is rounded: a
 // component of it is within e/2 M for a_0 and, for each of the others, e (an end each) + e (difference, product) of 2
 // M, e/2 of 2 M for either sum, e/2 2 M for u + v: in all within 9 e M, of x - y within 11 e M, times sqrt(3) < 20 e M.
 //

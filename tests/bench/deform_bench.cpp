@@ -1,6 +1,6 @@
 // What it takes to follow a mesh whose vertices move: all ways on one thread, in turn on the same frames, by the time
-// of the process. Embree's buffers get their positions outside of the time; pierce reads the caller's. Prints a table in
-// milliseconds, and ratios of medians for the sphere of 100,000 triangles:
+// of the process. Embree's buffers get their positions outside of the time; pierce reads the caller's. Prints a table
+// in milliseconds, and ratios of medians for the sphere of 100,000 triangles:
 //   ratio embree.rebuild     Embree's low-quality rebuild / our rebuild
 //   ratio embree.refit       Embree's refit / our refit
 //   ratio ours.refit.part    our rebuild / our refit of the vertices of 1 % of the faces, all in one place
