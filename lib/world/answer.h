@@ -20,7 +20,8 @@ void answer(const WorldScene<Scalar>& world, const Path& path, const OwnHit& own
     certify(scene.narrow(), candidate.measured, own.local, candidate.decision, instance.grain, counters, values,
             rounded);
     if (path.ray) {
-        const double parameter = to_parameter(path, values.weights[3]);
+        const double parameter = to_parameter(own.local, values.weights[3], candidate.decision.at_start,
+                                              [&] { return corners_of(candidate.measured); });
         rounded.weights[3] =
             static_cast<Scalar>(std::min(parameter, static_cast<double>(std::numeric_limits<Scalar>::max())));
     }

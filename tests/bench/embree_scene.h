@@ -50,12 +50,12 @@ class EmbreeScene {
         rtcSetSceneFlags(scene_, options.flags);
         rtcSetSceneBuildQuality(scene_, options.quality);
         rtcSetGeometryBuildQuality(geometry_, options.refits ? RTC_BUILD_QUALITY_REFIT : options.quality);
-        void* const vertices = vertices_ = rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                       3 * sizeof(float), mesh.positions.size());
+        vertices_ = rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                            mesh.positions.size());
         void* const indices = rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                       3 * sizeof(unsigned), mesh.triangles.size());
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-            std::memcpy(static_cast<float*>(vertices) + 3 * i, mesh.positions[i].data(), 3 * sizeof(float));
+            std::memcpy(static_cast<float*>(vertices_) + 3 * i, mesh.positions[i].data(), 3 * sizeof(float));
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
             std::memcpy(static_cast<unsigned*>(indices) + 3 * i, mesh.triangles[i].data(), 3 * sizeof(unsigned));
         rtcCommitGeometry(geometry_);
