@@ -14,9 +14,9 @@
 // f is below 2^608.
 //
 // On a part [x, y] of [0, 1] a polynomial's coefficients are its blossoms (Ramshaw 1987), from affine combinations
-// (1 - t) a + t b: each is off by 3u of the larger of |a|, |b|, and there are as many in a row as the degree says. So of
-// a cubic with |b_i| <= M all are within 9u M (10u with what is of second order), of a quadratic within 6u M (7u), and
-// the bound of the coefficients is kept.
+// (1 - t) a + t b: each is off by 3u of the larger of |a|, |b|, and there are as many in a row as the degree says. So
+// of a cubic with |b_i| <= M all are within 9u M (10u with what is of second order), of a quadratic within 6u M (7u),
+// and the bound of the coefficients is kept.
 #include <motion/filter.h>
 
 #include <algorithm>
