@@ -10,13 +10,13 @@
 // of two such sums 10u. One u more is enough for terms of second order and the roundings of the bars:
 //   b0, b3: 9u bar      3 b1, 3 b2: 11u bar, b1, b2 12u bar / 3     q0, q2: 5u bar      q1: 6u bar
 // Products that underflow: with differences below 2^200 each is off by 2^-1074 more at most, an area by 2^-1071, times
-// a difference 2^-871, f by 2^-868 in all. So 2^-860 more is enough for f and for areas. Where the largest bar is
-// finite nothing overflowed.
+// a difference 2^-871, f by 2^-868 in all. So 2^-860 more is enough for f and for areas. Nothing overflows:
+// f is below 2^608.
 //
-// On a part [x, y] of [0, 1] a polynomial's coefficients are its blossoms (Ramshaw 1987), from affine combinations (1
-// - t) a + t b: each is off by 3u of the larger of |a|, |b|, and there are as many in a row as the degree says. So of
-// a cubic with |b_i| <= M all are within 9u M (10u with what is of second order), of a quadratic within 6u M (7u), and
-// the bound of the coefficients is kept.
+// On a part [x, y] of [0, 1] a polynomial's coefficients are its blossoms (Ramshaw 1987), from affine combinations
+// (1 - t) a + t b: each is off by 3u of the larger of |a|, |b|, and there are as many in a row as the degree says. So
+// of a cubic with |b_i| <= M all are within 9u M (10u with what is of second order), of a quadratic within 6u M (7u),
+// and the bound of the coefficients is kept.
 #include <motion/filter.h>
 
 #include <algorithm>

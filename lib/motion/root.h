@@ -79,6 +79,8 @@ struct Root {
     /// As many halvings as it says, at once: an estimate of the root names the part, and it is taken if the root is
     /// there. False if not.
     bool leap(int count) {
+        // Of another root at an end of the interval the estimate could be.
+        if (here.b[0].zero() || here.b[here.degree].zero()) return false;
         const double estimate = estimate_root(here);
         const double steps = std::ldexp(1.0, count);
         if (!(estimate > 0 && estimate < 1)) return false;
@@ -261,12 +263,11 @@ int multiple_roots(const Bernstein<C>& f, Root<C>& root, Meet&& meet) {
     Whole<C> single_n = p.c[2] * d;
     add_product(single_n, n + n, p.c[3]);
     single_n.negate();
-    Root<C>& first = root;
-    Whole<C> order = single_n * d;  // the single one less the double one, times (d^2 c3^2) d c3 ...
+    Whole<C> order = single_n * d;  // the single root less the double one, times both denominators
     add_product(order, n, single_d, true);
     const bool single_first = order.sign() * single_d.sign() * d.sign() < 0;
     for (const bool single : {single_first, !single_first}) {
-        first.set_fraction(f, single ? single_n : n, single ? single_d : d);
+        root.set_fraction(f, single ? single_n : n, single ? single_d : d);
         if (inside() && meet(single)) return 1;
     }
     return 0;
