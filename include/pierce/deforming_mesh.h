@@ -54,7 +54,7 @@ class PIERCE_EXPORT DeformationStep {
     template <class>
     friend class DeformingMesh;
     struct PIERCE_HIDDEN Impl;
-    explicit DeformationStep(std::shared_ptr<const Impl> impl) noexcept;
+    PIERCE_HIDDEN explicit DeformationStep(std::shared_ptr<const Impl> impl) noexcept;
     std::shared_ptr<const Impl> impl_;  ///< null: no triangles
 };
 

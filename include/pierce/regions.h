@@ -65,9 +65,9 @@ struct RegionPlace {
 ///     point = place.point;
 ///     region = place.region;
 ///
-/// Refers to the mesh, which must live longer; moving the mesh does no harm. Copies the labels. Queries are
-/// thread-safe, allocate nothing and end for every input. What was moved from can be assigned to and destroyed, no
-/// more.
+/// Refers to the mesh, which must live longer and keep its positions (after `refit` or `rebuild` make new ones); moving
+/// it does no harm. Copies the labels. Queries are thread-safe, allocate nothing and end for every input. What was
+/// moved from can be assigned to and destroyed, no more.
 template <class Scalar>
 class PIERCE_EXPORT Regions {
   public:

@@ -152,6 +152,31 @@ TYPED_TEST(Refits, NodesWithFramesOfTheirOwn) {
     }
 }
 
+// A vertex at a time, in a tree of several levels: what is above its clusters has to follow.
+TYPED_TEST(Refits, OneVertexOfMany) {
+    using Scalar = TypeParam;
+    Random random(8);
+    TriangleSoup<Scalar> soup = moved<Scalar>(bumpy_sphere(20), 1, {0, 0, 0});
+    CollisionMesh<Scalar> mesh(soup.view());
+    for (int step = 0; step < 60; ++step) {
+        const auto v = static_cast<std::uint32_t>(random.below(soup.positions.size()));
+        // Out of its node's box, but not of the frame; some out of that, too.
+        const double size = random.chance(0.1) ? 4 : 0.3;
+        const Vec3<Scalar> way = (size * random.in_cube()).template cast<Scalar>();
+        soup.positions[v] += way;
+        mesh.refit(soup.positions, std::span(&v, 1));
+        const CollisionMesh<Scalar> fresh(soup.view());
+        for (int i = 0; i < 30; ++i) {
+            const Vec3<Scalar> aim = soup.positions[v] - Scalar(random.unit()) * way;
+            const Vec3<Scalar> d = random.in_cube().template cast<Scalar>();
+            const Segment<Scalar> through{aim - d, aim + d};
+            ASSERT_TRUE(same_answer(mesh.first_hit(through, {.sides = Sides::both}),
+                                    fresh.first_hit(through, {.sides = Sides::both})))
+                << "step " << step;
+        }
+    }
+}
+
 TYPED_TEST(Refits, FaceNumbersStay) {
     using Scalar = TypeParam;
     TriangleSoup<Scalar> soup = moved<Scalar>(corner_triangle(), 1, {0, 0, 0});

@@ -142,6 +142,30 @@ void expect_no_leaks(int n, int count, int steps) {
 TYPED_TEST(Rides, NobodyGetsThrough) { expect_no_leaks<TypeParam>(4, 40, 60); }
 TYPED_TEST(Rides, NobodyGetsThroughSoak) { expect_no_leaks<TypeParam>(10, 1000, 1000); }
 
+// Whoever asks while a step is made, here on the very threads that make it, sees the one before.
+TYPED_TEST(Rides, TheOldStepIsSeenUntilTheNextIsMade) {
+    using Scalar = TypeParam;
+    TriangleSoup<Scalar> soup = moved<Scalar>(star(40, [](const Vec3<double>&) { return 1.0; }), 1, {0, 0, 0});
+    DeformingMesh<Scalar> mesh(soup.view());
+    const auto size_of = [](const CollisionMesh<Scalar>& state) {
+        return state.first_hit(Segment<Scalar>{{0, 0, 0}, {0, 0, 1000}}, {.sides = Sides::both})->position[2];
+    };
+    int asked = 0;
+    for (int size = 2; size < 6; ++size) {
+        for (Vec3<Scalar>& p : soup.positions) p *= Scalar(size) / Scalar(size - 1);
+        const Scalar last = size_of(mesh.step().after());
+        const auto asks = [&](std::size_t parts, Task task) {
+            EXPECT_EQ(size_of(mesh.step().after()), last);
+            ++asked;
+            for (std::size_t i = 0; i < parts; ++i) task(i);
+        };
+        mesh.begin_step(soup.positions, std::cref(asks));
+        EXPECT_EQ(size_of(mesh.step().before()), last);
+        EXPECT_GT(size_of(mesh.step().after()), last + Scalar(0.5));
+    }
+    EXPECT_GT(asked, 10);
+}
+
 // Readers ask while steps are made; each sees one whole step.
 TYPED_TEST(Rides, ReadersSeeWholeSteps) {
     using Scalar = TypeParam;

@@ -213,6 +213,38 @@ TYPED_TEST(Sweeps, OfATranslatedMeshAreThoseOfTheRelativeMotion) {
     EXPECT_GT(hits, 500);
 }
 
+// A contact at a third of the step, which is between two doubles.
+TYPED_TEST(Sweeps, LimitsAreComparedExactly) {
+    using Scalar = TypeParam;
+    const TriangleSoup<Scalar> soup = moved<Scalar>(corner_triangle(), 1, {0, 0, 0});
+    const DeformingMesh<Scalar> mesh(soup.view());
+    const Segment<Scalar> down{{1, 1, 1}, {1, 1, -2}};
+    const double third = 1.0 / 3;  // below the true one
+    EXPECT_FALSE(mesh.sweep(down, {.max_fraction = third}));
+    EXPECT_TRUE(mesh.sweep(down, {.max_fraction = std::nextafter(third, 1.0)}));
+    const Segment<Scalar> half{{1, 1, 1}, {1, 1, -1}};
+    EXPECT_TRUE(mesh.sweep(half, {.max_fraction = 0.5}));
+    EXPECT_FALSE(mesh.sweep(half, {.max_fraction = std::nextafter(0.5, 0.0)}));
+}
+
+// On edges and vertices that are valleys from inside, several faces are to be kept off.
+TYPED_TEST(Sweeps, PlacesInCornersAreNearTheContact) {
+    using Scalar = TypeParam;
+    Random random(51);
+    const TriangleSoup<Scalar> soup = moved<Scalar>(bumpy_sphere(8), 1, {0, 0, 0});
+    const DeformingMesh<Scalar> mesh(soup.view());
+    for (int i = 0; i < 400; ++i) {
+        const IndexTriple& t = soup.triangles[random.below(soup.triangles.size())];
+        const Scalar w = random.chance(0.3) ? Scalar(0) : static_cast<Scalar>(random.unit());
+        const Vec3<Scalar> target = soup.positions[t[0]] + w * (soup.positions[t[1]] - soup.positions[t[0]]);
+        const auto hit = mesh.sweep({Scalar(0.25) * target, Scalar(1.5) * target},
+                                    {.sides = std::array{Sides::back, Sides::both}[random.below(2)]});
+        ASSERT_TRUE(hit);
+        ASSERT_TRUE(hit->place_verified);
+        ASSERT_LT((hit->place - hit->position.vec()).norm(), 1000 * std::numeric_limits<Scalar>::epsilon());
+    }
+}
+
 TYPED_TEST(Sweeps, BatchesHaveTheSameBits) {
     using Scalar = TypeParam;
     Random random(41);
