@@ -211,7 +211,8 @@ TYPED_TEST(PosedWorld, far_ends_lose_nothing) {
     Random random(8);
     for (int round = 0; round < 40; ++round) {
         Setup<Scalar> setup(0, 5);
-        const auto& soup = setup.soups[static_cast<std::size_t>(round % 3)];
+        // A cube: its own box, and that in the world, have nothing to spare at a corner.
+        const TriangleSoup<Scalar> soup = moved<Scalar>(polycube(1, 1, 4, 1), 1, {-2, -2, -2});
         InstanceOptions<Scalar> options;
         options.pose.rotation = rotation_of<Scalar>(2, random.between_ints(-3, 3), random.between_ints(-3, 3), 1);
         options.pose.translation = random.in_cube().template cast<Scalar>();
@@ -227,7 +228,9 @@ TYPED_TEST(PosedWorld, far_ends_lose_nothing) {
         }
         for (int i = 0; i < 200; ++i) {
             const Vec3<double> way = far * random.direction();
-            const Vec3<double> through = 2.5 * random.in_cube();
+            const Vec3<Scalar> corner = soup.positions[random.below(soup.positions.size())];
+            const Vec3<double> through =
+                setup.world.to_world(id, corner).template cast<double>() + 0.1 * random.in_cube();
             const Segment<Scalar> segment{(through - way).template cast<Scalar>(),
                                           (through + random.unit() * way).template cast<Scalar>()};
             const WorldOptions both{.sides = Sides::both};
