@@ -34,6 +34,21 @@ struct Plane {
     std::uint32_t triangle;
 };
 
+/// A lift along the mean of the normals, where the least one is not found: of planes that are nearly one.
+template <class Surface>
+[[nodiscard]] bool lift_in_common(std::span<const Plane<Surface>> planes,
+                                  const std::array<double, HalfSpaces::k_most>& least, double furthest, Point& lift) {
+    Point mean{};
+    for (const Plane<Surface>& plane : planes) mean = plus(mean, 1, plane.normal);
+    double most = 0;
+    for (std::size_t i = 0; i < planes.size(); ++i)
+        most = std::max(most, least[i] / dot_product(planes[i].normal, mean));
+    lift = times(most, mean);
+    bool enough = dot_product(lift, lift) <= furthest * furthest;
+    for (std::size_t i = 0; i < planes.size(); ++i) enough = enough && dot_product(planes[i].normal, mean) > 0;
+    return enough;
+}
+
 /// From `from` by `way`, rounded to Scalar. Where no such point is certain it is where it would be without planes.
 template <class Scalar, class Cast>
 void aim(const Cast& cast, const Point& from, const Point& way, std::span<const Plane<typename Cast::Surface>> planes,
@@ -59,7 +74,7 @@ void aim(const Cast& cast, const Point& from, const Point& way, std::span<const 
         HalfSpaces spaces;
         for (std::size_t i = 0; i < planes.size(); ++i) spaces.push({planes[i].normal, least[i]});
         Point lift{};
-        if (!spaces.nearest(k_furthest, lift)) break;
+        if (!spaces.nearest(k_furthest, lift) && !lift_in_common(planes, least, k_furthest, lift)) break;
         const Point lifted = rounded_to<Scalar>(plus(end, unit, lift));
         bool in_front = true;
         for (std::size_t i = 0; i < planes.size(); ++i) {
