@@ -103,7 +103,7 @@ std::optional<SphereHit<Scalar>> sweep_sphere(const Scene<Scalar>& scene, const 
     if (scene.empty() || path.from == path.to) return hit;
     const auto r = static_cast<double>(radius);
     const double reach = sphere_reach(scene, path.from, r);
-    const double margin = sphere_margin(scene, r);
+    const double margin = std::max(sphere_margin(scene, r), 0x1p-43 * reach);  // place_sphere()'s grain, four times
     const Sphere sphere(path, r, reach);
     const SphereQuery<Scalar> query{scene, options, counters};
     FirstEntry<Scalar> first(query, sphere, std::min(options.max_fraction, 1.0));
