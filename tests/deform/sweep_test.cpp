@@ -238,7 +238,9 @@ TYPED_TEST(Sweeps, PlacesInCornersAreNearTheContact) {
     for (int i = 0; i < 400; ++i) {
         const IndexTriple& t = soup.triangles[random.below(soup.triangles.size())];
         const Scalar w = random.chance(0.3) ? Scalar(0) : static_cast<Scalar>(random.unit());
-        const Vec3<Scalar> target = soup.positions[t[0]] + w * (soup.positions[t[1]] - soup.positions[t[0]]);
+        const std::size_t k = random.below(3);
+        const Vec3<Scalar> one = soup.positions[t[k]], other = soup.positions[t[(k + 1) % 3]];
+        const Vec3<Scalar> target = one + w * (other - one);
         const auto hit = mesh.sweep({Scalar(0.25) * target, Scalar(1.5) * target}, {.sides = Sides::back});
         ASSERT_TRUE(hit);
         ASSERT_TRUE(hit->place_verified);
