@@ -7,9 +7,10 @@ namespace pierce::detail {
 
 namespace {
 
-// Limbs of the corners seen from the point, and of all else: for coordinates of 124 bits, of 300, which all floats are, and for any. The longest
-// numbers are coefficients of cubics halved 18 L + 90 times (root.h): 3 L + 9 bits and three a halving, 57 L + 279 in all.
-// Common divisors take less, at most 36 L + 168 bits, and values at fractions 39 L + 182.
+// Limbs of the corners seen from the point, and of all else: for coordinates of 124 bits, of 300, which all floats
+// are, and for any. The longest numbers are coefficients of cubics halved 18 L + 90 times (root.h): 3 L + 9 bits and
+// three a halving, 57 L + 279 in all. Common divisors take less, at most 36 L + 168 bits, and values at fractions 39 L
+// + 182.
 template <class F>
 [[gnu::always_inline]] inline decltype(auto) with_room(int bits, F&& f) {
     constexpr int k_short = 124;

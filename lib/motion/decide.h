@@ -1,8 +1,8 @@
 // Contacts and their times in exact arithmetic: what is asked where the filter can't tell. Total over all finite input.
 //
-// All numbers are on the stack. That takes 70 KiB for coordinates whose bits, from the highest of the largest to the lowest
-// that is set in any, are 124 at most; 170 KiB for 300, as all floats are; and up to 0.8 MiB for others, 1.1 MiB for the
-// order of two, where numbers may get 1,874 limbs long.
+// All numbers are on the stack. That takes 70 KiB for coordinates whose bits, from the highest of the largest to the
+// lowest that is set in any, are 124 at most; 170 KiB for 300, as all floats are; and up to 0.8 MiB for others, 1.1
+// MiB for the order of two, where numbers may get 1,874 limbs long.
 #pragma once
 
 #include <motion/moving.h>

@@ -1,19 +1,22 @@
 // The filter for moving points and triangles, and its bounds.
 //
-// Seen from the point the corners move linearly, A, B and C, from A0 to A1 and so on; f = -det(A, B, C) as in course.h, in Bernstein form:
+// Seen from the point the corners move linearly, A, B and C, from A0 to A1 and so on; f = -det(A, B, C) as in
+// course.h, in Bernstein form:
 //   b0 = -A0 . q0,  3 b1 = -(A1 . q0 + A0 . q1),  3 b2 = -(A1 . q1 + A0 . q2),  b3 = -A1 . q2
 //   q0 = B0 x C0,   q1 = B0 x C1 + B1 x C0,       q2 = B1 x C1
-// and B x C is q0, q1 / 2, q2 in Bernstein form. Bounds are in parts of the bars: the same sums of products, of magnitudes and with all
-// signs made +. With u = 2^-52, which serves any rounding mode, in first order: differences u, products of two 3u, q0 and q2 4u, q1 5u,
-// products with another difference 6u and 7u, sums of three 8u and 9u, sums of two such sums 10u. One u more is enough for terms of second
-// order and the roundings of the bars:
+// and B x C is q0, q1 / 2, q2 in Bernstein form. Bounds are in parts of the bars: the same sums of products, of
+// magnitudes and with all signs made +. With u = 2^-52, which serves any rounding mode, in first order: differences u,
+// products of two 3u, q0 and q2 4u, q1 5u, products with another difference 6u and 7u, sums of three 8u and 9u, sums
+// of two such sums 10u. One u more is enough for terms of second order and the roundings of the bars:
 //   b0, b3: 9u bar      3 b1, 3 b2: 11u bar, b1, b2 12u bar / 3     q0, q2: 5u bar      q1: 6u bar
-// Products that underflow: with differences below 2^200 each is off by 2^-1074 more at most, an area by 2^-1071, times a difference
-// 2^-871, f by 2^-868 in all. So 2^-860 more is enough for f and for areas. Where the largest bar is finite nothing overflowed.
+// Products that underflow: with differences below 2^200 each is off by 2^-1074 more at most, an area by 2^-1071, times
+// a difference 2^-871, f by 2^-868 in all. So 2^-860 more is enough for f and for areas. Nothing overflows:
+// f is below 2^608.
 //
-// On a part [x, y] of [0, 1] a polynomial's coefficients are its blossoms (Ramshaw 1987), from affine combinations (1 - t) a + t b: each
-// is off by 3u of the larger of |a|, |b|, and there are as many in a row as the degree says. So of a cubic with |b_i| <= M all are within
-// 9u M (10u with what is of second order), of a quadratic within 6u M (7u), and the bound of the coefficients is kept.
+// On a part [x, y] of [0, 1] a polynomial's coefficients are its blossoms (Ramshaw 1987), from affine combinations
+// (1 - t) a + t b: each is off by 3u of the larger of |a|, |b|, and there are as many in a row as the degree says. So
+// of a cubic with |b_i| <= M all are within 9u M (10u with what is of second order), of a quadratic within 6u M (7u),
+// and the bound of the coefficients is kept.
 #include <motion/filter.h>
 
 #include <algorithm>
@@ -54,8 +57,8 @@ void see(const MovingPoint& point, const MovingTriangle& triangle, Seen& seen) {
             for (std::size_t k = 0; k < 3; ++k) seen.at[i][corner][k] = triangle.at[i][corner][k] - point.at[i][k];
 }
 
-/// Whether all corners are on one side of the point along an axis, at both ends and so all the time. A difference has the sign of the
-/// exact one.
+/// Whether all corners are on one side of the point along an axis, at both ends and so all the time. A difference has
+/// the sign of the exact one.
 [[nodiscard]] bool apart_along_axis(const Seen& seen) {
     for (std::size_t k = 0; k < 3; ++k) {
         bool above = true;
@@ -153,8 +156,8 @@ void see(const MovingPoint& point, const MovingTriangle& triangle, Seen& seen) {
                : 0;
 }
 
-/// Where the point is, whenever it is in the plane at a time in [x, y]: outside if two weights differ in sign, by any component (of a
-/// triangle without area as well: then all that is in the plane and not outside has no weights).
+/// Where the point is, whenever it is in the plane at a time in [x, y]: outside if two weights differ in sign, by any
+/// component (of a triangle without area as well: then all that is in the plane and not outside has no weights).
 [[nodiscard]] Certainty inside(const Seen& seen, std::size_t axis, double x, double y) {
     bool plus = false;
     bool minus = false;
@@ -202,8 +205,8 @@ void restrict_to(const Cubic& f, double x, double y, double (&out)[4]) {
     return mix(mix(row[0], row[1], t), mix(row[1], row[2], t), t);
 }
 
-/// Brings the ends of an interval, with one root in it and f of certain and different signs at its ends, near to the root. Whatever
-/// the search finds, an end is moved only where the sign of f is certain.
+/// Brings the ends of an interval, with one root in it and f of certain and different signs at its ends, near to the
+/// root. Whatever the search finds, an end is moved only where the sign of f is certain.
 void close_in(const Cubic& f, int before, double& x, double& y) {
     // In powers of t, by Newton's method; bisection where it would leave the interval.
     const double c1 = 3 * (f.b[1] - f.b[0]);

@@ -18,14 +18,15 @@ struct MovingTriangle {
     Corners at[2];
 };
 
-/// Which contacts count. A contact is a time at which the point lies in the closed triangle. `closed` counts all of them.
+/// Which contacts count. A contact is a time at which the point lies in the closed triangle. `closed` counts all of
+/// them.
 ///
 /// `front`: the point is behind the plane just after it, and was not just before; at time 0 on the plane counts as in
 /// front, at time 1 nothing counts, since the next step has it. On an edge or a vertex (also of a triangle without area
-/// at that time) a contact at a time in (0, 1) counts unless the point comes from behind and goes to the front: there a point can get
-/// behind the surface without ever changing the side of a plane (README.md). In the triangle's plane for the whole
-/// step it never counts. `back` is the same mirrored. `both` counts what `front` and `back` do at times in (0, 1), at time 0 what
-/// `front` does, and at time 1 what comes from behind.
+/// at that time) a contact at a time in (0, 1) counts unless the point comes from behind and goes to the front: there
+/// a point can get behind the surface without ever changing the side of a plane (README.md). In the triangle's plane
+/// for the whole step it never counts. `back` is the same mirrored. `both` counts what `front` and `back` do at times
+/// in (0, 1), at time 0 what `front` does, and at time 1 what comes from behind.
 /// For a triangle that doesn't turn or change its shape these are the rules of `Sides`.
 enum class Contact : std::uint8_t { front, back, both, closed };
 
@@ -55,8 +56,8 @@ struct Impact {
     return first_contact(point, triangle, contact_of(sides));
 }
 
-/// The exact order of the times of two impacts of one point, by one rule: < 0 where the first comes before the second, 0 where they
-/// are equal. (So the first hit among many is the least by this, then by face number.) Both must be hits.
+/// The exact order of the times of two impacts of one point, by one rule: < 0 where the first comes before the second,
+/// 0 where they are equal. (So the first hit among many is the least by this, then by face number.) Both must be hits.
 [[nodiscard]] int compare_impacts(const MovingPoint& point, Contact contact, const MovingTriangle& first,
                                   const Impact& one, const MovingTriangle& second, const Impact& two) noexcept;
 

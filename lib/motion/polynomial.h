@@ -1,5 +1,5 @@
-// Polynomials of degree 3 at most with whole coefficients: in Bernstein form over an interval, which is halved to enclose roots, and in
-// powers of t, for common divisors and values at fractions.
+// Polynomials of degree 3 at most with whole coefficients: in Bernstein form over an interval, which is halved to
+// enclose roots, and in powers of t, for common divisors and values at fractions.
 //
 // A polynomial stands for all its positive multiples: only signs and roots are asked for.
 #pragma once
@@ -72,7 +72,8 @@ template <int C>
     return sum;
 }
 
-/// The polynomial on the part from i / n to (i + 1) / n of its interval, times n^degree: its blossoms there (Ramshaw 1987).
+/// The polynomial on the part from i / n to (i + 1) / n of its interval, times n^degree: its blossoms there (Ramshaw
+/// 1987).
 template <int C>
 inline void restrict_to_part(const Bernstein<C>& p, std::uint64_t i, std::uint64_t n, Bernstein<C>& out) {
     out.degree = p.degree;
@@ -88,7 +89,8 @@ inline void restrict_to_part(const Bernstein<C>& p, std::uint64_t i, std::uint64
     }
 }
 
-/// About where the polynomial, with different signs at the ends of its interval, has a root there: by its coefficients' highest bits.
+/// About where the polynomial, with different signs at the ends of its interval, has a root there: by its
+/// coefficients' highest bits.
 template <int C>
 [[nodiscard]] inline double estimate_root(const Bernstein<C>& p) {
     int limbs = 0;

@@ -76,8 +76,11 @@ struct Root {
         shift_up(power, at.depth);
         set_fraction(*of, number, power);
     }
-    /// As many halvings as it says, at once: an estimate of the root names the part, and it is taken if the root is there. False if not.
+    /// As many halvings as it says, at once: an estimate of the root names the part, and it is taken if the root is
+    /// there. False if not.
     bool leap(int count) {
+        // Of another root at an end of the interval the estimate could be.
+        if (here.b[0].zero() || here.b[here.degree].zero()) return false;
         const double estimate = estimate_root(here);
         const double steps = std::ldexp(1.0, count);
         if (!(estimate > 0 && estimate < 1)) return false;
@@ -124,10 +127,10 @@ template <int C>
 
 /// The sign of q at the root. Halves the root's interval until it can tell.
 ///
-/// That ends: where q is not 0 at the root it is at least 2^-(10 L + 46) there, for a cubic of differences of coordinates
-/// of L bits and a polynomial of degree 2 in them. Since |q(r)| >= 1 / (|f|^2 |q|^2) (from their resultant, a whole number, and Mahler's
-/// measure), with |f| < 2^(3L + 14) the norm of f in powers of t and |q| < 2^(2L + 9) that of q. So after 12 L + 56 halvings
-/// q has one sign all over the interval.
+/// That ends: where q is not 0 at the root it is at least 2^-(10 L + 46) there, for a cubic of differences of
+/// coordinates of L bits and a polynomial of degree 2 in them. Since |q(r)| >= 1 / (|f|^2 |q|^2) (from their
+/// resultant, a whole number, and Mahler's measure), with |f| < 2^(3L + 14) the norm of f in powers of t and |q| <
+/// 2^(2L + 9) that of q. So after 12 L + 56 halvings q has one sign all over the interval.
 template <int C>
 [[nodiscard]] inline int sign_at(Root<C>& root, const Bernstein<C>& q) {
     if (q.variations() == 0) return q.sign_after_start();  // inside the interval each weight is > 0
@@ -192,7 +195,8 @@ template <int C>
     }
 }
 
-/// Where a root lies: both are equal where that is a double. Rounded outwards from a multiple of 2^-62 or from the root itself.
+/// Where a root lies: both are equal where that is a double. Rounded outwards from a multiple of 2^-62 or from the
+/// root itself.
 struct Enclosure {
     double earliest;
     double latest;
@@ -229,9 +233,9 @@ template <int C>
     return {static_cast<double>(low) * 0x1p-62, static_cast<double>(high) * 0x1p-62};
 }
 
-/// Calls meet(turns) for the roots strictly between 0 and 1, in their order, if one of all roots is a multiple one: then all are fractions,
-/// as that one is the root of a common divisor with whole coefficients. `turns`: the sign of f changes there. Until meet says true: 1,
-/// else 0; -1 where all roots are simple.
+/// Calls meet(turns) for the roots strictly between 0 and 1, in their order, if one of all roots is a multiple one:
+/// then all are fractions, as that one is the root of a common divisor with whole coefficients. `turns`: the sign of f
+/// changes there. Until meet says true: 1, else 0; -1 where all roots are simple.
 template <int C, class Meet>
 int multiple_roots(const Bernstein<C>& f, Root<C>& root, Meet&& meet) {
     const Powers<C> p(f);
@@ -259,19 +263,19 @@ int multiple_roots(const Bernstein<C>& f, Root<C>& root, Meet&& meet) {
     Whole<C> single_n = p.c[2] * d;
     add_product(single_n, n + n, p.c[3]);
     single_n.negate();
-    Root<C>& first = root;
-    Whole<C> order = single_n * d;  // the single one less the double one, times (d^2 c3^2) d c3 ...
+    Whole<C> order = single_n * d;  // the single root less the double one, times both denominators
     add_product(order, n, single_d, true);
     const bool single_first = order.sign() * single_d.sign() * d.sign() < 0;
     for (const bool single : {single_first, !single_first}) {
-        first.set_fraction(f, single ? single_n : n, single ? single_d : d);
+        root.set_fraction(f, single ? single_n : n, single ? single_d : d);
         if (inside() && meet(single)) return 1;
     }
     return 0;
 }
 
-/// Calls visit(before, after), `root` being set, for the roots of f strictly between 0 and 1, in their order, with the signs of f just before and just
-/// after, until it says true; says whether it did. f is not zero, and outlives the roots.
+/// Calls visit(before, after), `root` being set, for the roots of f strictly between 0 and 1, in their order, with the
+/// signs of f just before and just after, until it says true; says whether it did. f is not zero, and outlives the
+/// roots.
 template <int C, class Visit>
 bool each_root(const Bernstein<C>& f, Root<C>& root, Visit&& visit) {
     int side = f.sign_after_start();

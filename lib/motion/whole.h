@@ -1,5 +1,6 @@
-// Whole numbers of a length that varies, in a room of fixed size: what the roots of polynomials are enclosed in. How long they get
-// depends on how near to each other roots lie, so Integer<N>, as long as the longest, would nearly always be too long.
+// Whole numbers of a length that varies, in a room of fixed size: what the roots of polynomials are enclosed in. How
+// long they get depends on how near to each other roots lie, so Integer<N>, as long as the longest, would nearly
+// always be too long.
 #pragma once
 
 #include <cstring>

@@ -1,7 +1,7 @@
-// What a moving point against a moving triangle costs, by scene, on published queries with ground truth; all answers are
-// checked first. Prints `ratio ccd.typical VALUE`: the 0.74 us a query that are published for Tight-Inclusion on simulation
-// data (Wang et al. 2021, table 1, another machine, 18 million queries of which these are not a sample) over the mean
-// time of the simulation scenes here.
+// What a moving point against a moving triangle costs, by scene, on published queries with ground truth; all answers
+// are checked first. Prints `ratio ccd.typical VALUE`: the 0.74 us a query that are published for Tight-Inclusion on
+// simulation data (Wang et al. 2021, table 1, another machine, 18 million queries of which these are not a sample)
+// over the mean time of the simulation scenes here.
 //   ccd_bench FOLDER      with a folder for each scene: vertex_face.csv, truth.json
 #include <algorithm>
 #include <ctime>

@@ -1,4 +1,5 @@
-// The filter's certain answers where its bounds are needed most: nearly touching, at every size, at the ends of the range.
+// The filter's certain answers where its bounds are needed most: nearly touching, at every size, at the ends of the
+// range.
 #include <cmath>
 #include <limits>
 
@@ -39,8 +40,8 @@ TEST(MovingFilter, IsSoundWhereItIsCertain) {
     QueryMaker maker(1);
     int certain = 0;
     for (int i = 0; i < 40000; ++i) {
-        Query q = maker.make(k_kinds[i % 8]);
-        const double size = std::ldexp(1.0, i % 3 == 0 ? maker.number(-340, -200) : maker.number(-40, 40));
+        Query q = maker.make(k_kinds[i % 9]);
+        const double size = std::ldexp(1.0, i % 3 == 0 ? maker.number(-364, -340) : maker.number(-40, 40));
         const double noise = std::ldexp(1.0, -maker.number(30, 60));
         QueryMaker::each(q, [&](detail::Point& p) {
             for (double& x : p) x = (x + (i % 2 == 0 ? maker.real(-noise, noise) : 0)) * size;
@@ -51,7 +52,7 @@ TEST(MovingFilter, IsSoundWhereItIsCertain) {
     EXPECT_GT(certain, 40000);
 }
 
-// Two close roots, or none: the point is the less than a hair's breadth in front of the turning triangle or behind it.
+// Two close roots, or none: the point is less than a hair's breadth in front of the turning triangle or behind it.
 TEST(MovingFilter, NearlyDoubleRoots) {
     QueryMaker maker(2);
     int certain = 0;
@@ -71,6 +72,24 @@ TEST(MovingFilter, NearlyDoubleRoots) {
         if (HasFatalFailure()) return;
     }
     EXPECT_GT(certain, 20000);
+}
+
+// What is lost of an area below the least double is multiplied by a corner far away.
+TEST(MovingFilter, HugeAndTiny) {
+    QueryMaker maker(4);
+    int certain = 0;
+    for (int i = 0; i < 2000; ++i) {
+        Query q;
+        const double huge = std::ldexp(1.0, maker.number(190, 340));
+        const double tiny = std::ldexp(1.0, -maker.number(533, 540));
+        for (int k = 0; k < 2; ++k) {
+            q.point.at[k] = {0, 0, 0};
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                for (double& x : q.triangle.at[k][corner]) x = maker.real(-1, 1) * (corner == 0 ? huge : tiny);
+        }
+        expect_sound(q, certain);
+        if (HasFatalFailure()) return;
+    }
 }
 
 TEST(MovingFilter, TakesAnyNumber) {

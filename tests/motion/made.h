@@ -8,9 +8,9 @@
 
 namespace pierce::test {
 
-enum class Kind { lattice, touching, near_miss, in_plane, turning, flat, anywhere, unequal };
-inline constexpr Kind k_kinds[] = {Kind::lattice, Kind::touching, Kind::near_miss, Kind::in_plane,
-                                   Kind::turning, Kind::flat,     Kind::anywhere,  Kind::unequal};
+enum class Kind { lattice, touching, near_miss, in_plane, turning, flat, anywhere, unequal, folding };
+inline constexpr Kind k_kinds[] = {Kind::lattice, Kind::touching, Kind::near_miss, Kind::in_plane, Kind::turning,
+                                   Kind::flat,    Kind::anywhere, Kind::unequal,   Kind::folding};
 
 struct Query {
     detail::MovingPoint point;
@@ -65,6 +65,8 @@ class QueryMaker {
                     any_coordinate(q) = std::ldexp(real(-1, 1), number(-60, 60));
                 return q;
             }
+            case Kind::folding:
+                return folding();
         }
         return q;
     }
@@ -137,6 +139,27 @@ class QueryMaker {
             for (detail::Point& p : q.triangle.at[i]) p[2] += number(-2, 2);
         if (number(0, 2) == 0) q.point.at[1] = q.point.at[0];
         if (number(0, 1) == 0) std::swap(q.triangle.at[1][0], q.triangle.at[1][1]);
+        return q;
+    }
+
+    // The triangle turns over about an edge while the point goes through that edge, along its plane then: a double
+    // root.
+    Query folding() {
+        Query q;
+        const int i = number(1, 7);
+        const int size = number(0, 1) == 0 ? 1 : -1;
+        const int turn = number(0, 1) == 0 ? 1 : -1;
+        const int aside = number(-1, 1);
+        for (int k = 0; k < 2; ++k) {
+            const int gone = i - 8 * k;
+            q.triangle.at[k] = {detail::Point{0, 0, 4}, {0, 0, -4}, {8.0 * size, 1.0 * turn * gone, 0}};
+            q.point.at[k] = {1.0 * gone, 0, aside * 4.0 + number(0, 1)};
+        }
+        if (number(0, 1) == 0)
+            for (auto& corners : q.triangle.at) std::swap(corners[0], corners[1]);
+        if (number(0, 3) == 0) any_coordinate(q) += number(-1, 1);
+        const auto axis = static_cast<std::size_t>(number(0, 2));
+        each(q, [axis](detail::Point& p) { p = {p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]}; });
         return q;
     }
 

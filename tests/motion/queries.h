@@ -1,4 +1,5 @@
-// Reads vertex-face queries with ground truth: eight rows a query, each of three fractions, as PIERCE_SHARED/ccd/README.md says.
+// Reads vertex-face queries with ground truth: eight rows a query, each of three fractions, as
+// PIERCE_SHARED/ccd/README.md says.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +50,8 @@ inline std::vector<SharedQuery> read_queries(const std::filesystem::path& scene)
         std::stringstream cells(line);
         std::string cell;
         for (int i = 0; i < 7 && std::getline(cells, cell, ','); ++i) field[i] = std::strtod(cell.c_str(), nullptr);
-        // Whole numbers below 2^53 but for zeros at the end, and powers of two: what is read and the quotient are exact.
+        // Whole numbers below 2^53 but for zeros at the end, and powers of two: what is read and the quotient are
+        // exact.
         const detail::Point p = {field[0] / field[1], field[2] / field[3], field[4] / field[5]};
         if (row % 8 == 0) queries.emplace_back();
         SharedQuery& q = queries.back();

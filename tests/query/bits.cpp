@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include <motion/moving.h>
 #include <pierce/collision_mesh.h>
 #include <pierce/deforming_mesh.h>
 #include <pierce/regions.h>
@@ -110,6 +111,31 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
     }
 }
 
+// Moving points and triangles, many of which touch.
+void add_impacts(Hash& hash, double scale, int digits) {
+    Random random(9);
+    for (int i = 0; i < 20'000; ++i) {
+        detail::MovingPoint point;
+        detail::MovingTriangle triangle;
+        const double grain = std::ldexp(1.0, digits);
+        const auto place = [&](detail::Point& p) {
+            for (double& x : p) x = std::round((2 * random.unit() - 1) * grain) / grain * scale;
+        };
+        for (int k = 0; k < 2; ++k) {
+            place(point.at[k]);
+            for (detail::Point& corner : triangle.at[k]) place(corner);
+        }
+        const auto contact = static_cast<detail::Contact>(i % 4);
+        const detail::Impact impact = detail::first_contact(point, triangle, contact);
+        hash.add(impact.hit ? 1 : 0);
+        if (!impact.hit) continue;
+        hash.add(std::uint64_t(impact.side));
+        hash.add(std::uint64_t(impact.feature) * 4 + impact.feature_index);
+        hash.add(std::bit_cast<std::uint64_t>(impact.earliest));
+        hash.add(std::bit_cast<std::uint64_t>(impact.latest));
+    }
+}
+
 }  // namespace
 }  // namespace pierce::test
 
@@ -129,5 +155,7 @@ int main() {
         add_answers<float>(hash, splinters(2000, 7), 1, offset);
         add_answers<double>(hash, splinters(2000, 8), 1, offset);
     }
+    for (const double scale : {1e-100, 1.0, 1e80})
+        for (const int digits : {1, 3, 30}) add_impacts(hash, scale, digits);
     std::printf("%016llx\n", static_cast<unsigned long long>(hash.value()));
 }
