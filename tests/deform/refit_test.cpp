@@ -237,6 +237,8 @@ TYPED_TEST(Refits, BadInputLeavesTheMeshAsItWas) {
     std::vector<std::uint32_t> all;
     for (std::uint32_t v = 0; v < positions.size(); ++v) all.push_back(v);
     EXPECT_NE(message_of<MeshError>(refit), "nothing was thrown");
+    const Segment<Scalar> through{{2, Scalar(0.1), Scalar(0.2)}, {-2, 0, 0}};
+    EXPECT_TRUE(same_answer(mesh.first_hit(through), CollisionMesh<Scalar>(soup.view()).first_hit(through)));
     EXPECT_NE(message_of<MeshError>([&] { mesh.refit(positions, all); }), "nothing was thrown");
     EXPECT_NE(message_of<MeshError>([&] { mesh.rebuild(positions); }), "nothing was thrown");
     Random random(3);

@@ -145,7 +145,7 @@ TYPED_TEST(Rides, NobodyGetsThroughSoak) { expect_no_leaks<TypeParam>(10, 1000, 
 // Whoever asks while a step is made, here on the very threads that make it, sees the one before.
 TYPED_TEST(Rides, TheOldStepIsSeenUntilTheNextIsMade) {
     using Scalar = TypeParam;
-    TriangleSoup<Scalar> soup = moved<Scalar>(star(40, [](const Vec3<double>&) { return 1.0; }), 1, {0, 0, 0});
+    TriangleSoup<Scalar> soup = moved<Scalar>(star(64, [](const Vec3<double>&) { return 1.0; }), 1, {0, 0, 0});
     DeformingMesh<Scalar> mesh(soup.view());
     const auto size_of = [](const CollisionMesh<Scalar>& state) {
         return state.first_hit(Segment<Scalar>{{0, 0, 0}, {0, 0, 1000}}, {.sides = Sides::both})->position[2];
