@@ -6,51 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <deform/deformations.h>
+#include <deform/naive_step.h>
 #include <pierce/deforming_mesh.h>
-#include <point.h>
 #include <support/executors.h>
 #include <support/expect_hit.h>
 #include <support/hard_segments.h>
 
-#include <motion/moving.h>
-
 namespace pierce::test {
 namespace {
-
-/// Every triangle decided by lib/motion, the first taken: no broadphase, no order of visits.
-template <class Scalar>
-struct NaiveStep {
-    TriangleSoup<Scalar> soup;
-    std::vector<Vec3<Scalar>> after;
-
-    struct Found {
-        std::uint32_t triangle;
-        detail::MovingTriangle corners;
-        detail::Impact impact;
-    };
-    [[nodiscard]] std::optional<Found> first(const Segment<Scalar>& way, const QueryOptions& options) const {
-        std::optional<Found> best;
-        const detail::MovingPoint point{{detail::to_point(way.from), detail::to_point(way.to)}};
-        const auto contact = detail::contact_of(options.sides);
-        for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
-            if (!options.face_mask.empty() && options.face_mask[i] == 0) continue;
-            Found found{i, {}, {}};
-            for (std::size_t k = 0; k < 3; ++k) {
-                found.corners.at[0][k] = detail::to_point(soup.positions[soup.triangles[i][k]]);
-                found.corners.at[1][k] = detail::to_point(after[soup.triangles[i][k]]);
-            }
-            found.impact = detail::strikes(point, found.corners, options.sides);
-            if (!found.impact.hit) continue;
-            if (options.max_fraction < 1 &&
-                detail::compare_time(point, contact, found.corners, found.impact, options.max_fraction) > 0)
-                continue;
-            if (!best ||
-                detail::compare_impacts(point, contact, found.corners, found.impact, best->corners, best->impact) < 0)
-                best = found;
-        }
-        return best;
-    }
-};
 
 template <class Scalar>
 void expect_same(const std::optional<SweepHit<Scalar>>& hit,
