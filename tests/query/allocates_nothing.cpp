@@ -139,10 +139,10 @@ void check() {
         }
     });
     std::vector<Move<Scalar>> moves(segments.size());
-    std::vector<MoveContact<Scalar>> contacts(2 * segments.size());
+    std::vector<MoveContact<Scalar>> met(2 * segments.size());
     expect_none("moves", [&] {
-        moves_and_slide(mesh, points, points, Scalar(1), moves, {}, reversed, contacts);
-        moves_and_bounce(mesh, points, points, Scalar(1), moves, {.response = {.restitution = 1}}, reversed, contacts);
+        moves_and_slide(mesh, points, points, Scalar(1), moves, {}, reversed, met);
+        moves_and_bounce(mesh, points, points, Scalar(1), moves, {.response = {.restitution = 1}}, reversed, met);
     });
     if (sum == 0 || counters.exact_decisions == 0) {
         std::puts("nothing was decided exactly");
