@@ -1,4 +1,4 @@
-// Which contacts count: the rule of Contact, on the signs of the point's side just before and just after.
+// Which contacts count: the rule of ContactRule, on the signs of the point's side just before and just after.
 #pragma once
 
 #include <motion/moving.h>
@@ -7,22 +7,22 @@ namespace pierce::detail {
 
 /// Sides: +1 in front, -1 behind; 0 only for a point that is in the plane for the whole step.
 struct Counting {
-    Contact contact;
+    ContactRule contact;
 
     [[nodiscard]] constexpr bool at_start(int after) const {
-        return contact == Contact::closed || (contact == Contact::back ? after > 0 : after < 0);
+        return contact == ContactRule::closed || (contact == ContactRule::back ? after > 0 : after < 0);
     }
     [[nodiscard]] constexpr bool at_end(int before) const {
-        return contact == Contact::closed || (contact == Contact::both && before < 0);
+        return contact == ContactRule::closed || (contact == ContactRule::both && before < 0);
     }
     /// At a time in (0, 1), on the open face of a triangle with area.
     [[nodiscard]] constexpr bool on_face(int before, int after) const {
         switch (contact) {
-            case Contact::front:
+            case ContactRule::front:
                 return before > 0 && after < 0;
-            case Contact::back:
+            case ContactRule::back:
                 return before < 0 && after > 0;
-            case Contact::both:
+            case ContactRule::both:
                 return before != after;
             default:
                 return true;
@@ -31,17 +31,17 @@ struct Counting {
     /// On its border, or on a triangle that has no area at that time.
     [[nodiscard]] constexpr bool on_border(int before, int after) const {
         switch (contact) {
-            case Contact::front:
+            case ContactRule::front:
                 return before > 0 || after < 0;
-            case Contact::back:
+            case ContactRule::back:
                 return before < 0 || after > 0;
             default:
                 return true;
         }
     }
     [[nodiscard]] constexpr Sides side(int before) const {
-        if (contact == Contact::front) return Sides::front;
-        if (contact == Contact::back) return Sides::back;
+        if (contact == ContactRule::front) return Sides::front;
+        if (contact == ContactRule::back) return Sides::back;
         return before > 0 ? Sides::front : Sides::back;
     }
 };

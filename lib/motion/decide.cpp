@@ -27,7 +27,7 @@ template <class F>
 // Functions of their own, so that what is decided with short numbers needs no large stack.
 template <int S, int C>
 [[gnu::noinline]] Impact contact_of(const MovingPoint& point, const MovingTriangle& triangle, const Lattice& lattice,
-                                    Contact contact) {
+                                    ContactRule contact) {
     FirstContact<S, C> first(point, triangle, lattice, contact);
     Impact impact = first.impact();
     if (!impact.hit) return impact;
@@ -38,15 +38,15 @@ template <int S, int C>
 }
 
 template <int S, int C>
-[[gnu::noinline]] int order_of(const MovingPoint& point, Contact contact, const MovingTriangle& first, const Lattice& a,
-                               const MovingTriangle& second, const Lattice& b) {
+[[gnu::noinline]] int order_of(const MovingPoint& point, ContactRule contact, const MovingTriangle& first,
+                               const Lattice& a, const MovingTriangle& second, const Lattice& b) {
     FirstContact<S, C> x(point, first, a, contact);
     FirstContact<S, C> y(point, second, b, contact);
     return compare_times(x, y);
 }
 
 template <int S, int C>
-[[gnu::noinline]] int order_of(const MovingPoint& point, Contact contact, const MovingTriangle& triangle,
+[[gnu::noinline]] int order_of(const MovingPoint& point, ContactRule contact, const MovingTriangle& triangle,
                                const Lattice& lattice, double time) {
     return FirstContact<S, C>(point, triangle, lattice, contact).compare_with(time);
 }
@@ -56,14 +56,15 @@ using Limbs = std::integral_constant<int, N>;
 
 }  // namespace
 
-Impact decide_contact(const MovingPoint& point, const MovingTriangle& triangle, Contact contact) {
+Impact decide_contact(const MovingPoint& point, const MovingTriangle& triangle, ContactRule contact) {
     const Lattice lattice = lattice_of(point, triangle);
     return with_room(lattice.bits(), [&]<int S, int C>(Limbs<S>, Limbs<C>) {
         return contact_of<S, C>(point, triangle, lattice, contact);
     });
 }
 
-int decide_order(const MovingPoint& point, Contact contact, const MovingTriangle& first, const MovingTriangle& second) {
+int decide_order(const MovingPoint& point, ContactRule contact, const MovingTriangle& first,
+                 const MovingTriangle& second) {
     const Lattice a = lattice_of(point, first);
     const Lattice b = lattice_of(point, second);
     return with_room(std::max(a.bits(), b.bits()), [&]<int S, int C>(Limbs<S>, Limbs<C>) {
@@ -71,7 +72,7 @@ int decide_order(const MovingPoint& point, Contact contact, const MovingTriangle
     });
 }
 
-int decide_order(const MovingPoint& point, Contact contact, const MovingTriangle& triangle, double time) {
+int decide_order(const MovingPoint& point, ContactRule contact, const MovingTriangle& triangle, double time) {
     const Lattice lattice = lattice_of(point, triangle);
     return with_room(lattice.bits(), [&]<int S, int C>(Limbs<S>, Limbs<C>) {
         return order_of<S, C>(point, contact, triangle, lattice, time);

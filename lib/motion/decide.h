@@ -10,13 +10,14 @@
 namespace pierce::detail {
 
 /// The first contact that counts, with its time enclosed as by `sharpened`.
-[[nodiscard]] Impact decide_contact(const MovingPoint& point, const MovingTriangle& triangle, Contact contact);
+[[nodiscard]] Impact decide_contact(const MovingPoint& point, const MovingTriangle& triangle, ContactRule contact);
 
 /// The order of the times of two impacts.
-[[nodiscard]] int decide_order(const MovingPoint& point, Contact contact, const MovingTriangle& first,
+[[nodiscard]] int decide_order(const MovingPoint& point, ContactRule contact, const MovingTriangle& first,
                                const MovingTriangle& second);
 
 /// The order of an impact's time and a number.
-[[nodiscard]] int decide_order(const MovingPoint& point, Contact contact, const MovingTriangle& triangle, double time);
+[[nodiscard]] int decide_order(const MovingPoint& point, ContactRule contact, const MovingTriangle& triangle,
+                               double time);
 
 }  // namespace pierce::detail

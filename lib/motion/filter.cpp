@@ -242,7 +242,7 @@ void close_in(const Cubic& f, int before, double& x, double& y) {
 
 class Filter {
   public:
-    Filter(const Seen& seen, const Cubic& f, Contact contact, Impact& impact)
+    Filter(const Seen& seen, const Cubic& f, ContactRule contact, Impact& impact)
         : seen_(seen), f_(f), counting_{contact}, impact_(impact) {}
 
     Certainty decide() {
@@ -326,7 +326,8 @@ class Filter {
 
 }  // namespace
 
-Certainty filter(const MovingPoint& point, const MovingTriangle& triangle, Contact contact, Impact& impact) noexcept {
+Certainty filter(const MovingPoint& point, const MovingTriangle& triangle, ContactRule contact,
+                 Impact& impact) noexcept {
     Seen seen;
     see(point, triangle, seen);
     if (apart_along_axis(seen)) return Certainty::miss;

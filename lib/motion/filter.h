@@ -8,7 +8,7 @@ namespace pierce::detail {
 enum class Certainty : std::uint8_t { miss, doubtful, hit };
 
 /// Whether a contact counts, for any doubles, also infinite ones and NaN, which are doubtful. Sets `impact` for a hit.
-[[nodiscard]] Certainty filter(const MovingPoint& point, const MovingTriangle& triangle, Contact contact,
+[[nodiscard]] Certainty filter(const MovingPoint& point, const MovingTriangle& triangle, ContactRule contact,
                                Impact& impact) noexcept;
 
 }  // namespace pierce::detail

@@ -57,11 +57,11 @@ template <class Course, class Polynomial, class Sign>
 template <int S, int C>
 class FirstContact {
   public:
-    FirstContact(const MovingPoint& point, const MovingTriangle& triangle, const Lattice& lattice, Contact contact)
+    FirstContact(const MovingPoint& point, const MovingTriangle& triangle, const Lattice& lattice, ContactRule contact)
         : course_(point, triangle, lattice), counting_{contact} {
         course_.set_volume(f_);
         if (f_.zero()) {
-            if (contact == Contact::closed) find_in_plane();
+            if (contact == ContactRule::closed) find_in_plane();
             return;
         }
         find();

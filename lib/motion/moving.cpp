@@ -25,7 +25,7 @@ namespace {
 
 }  // namespace
 
-Impact first_contact(const MovingPoint& point, const MovingTriangle& triangle, Contact contact) noexcept {
+Impact first_contact(const MovingPoint& point, const MovingTriangle& triangle, ContactRule contact) noexcept {
     Impact impact;
     const Certainty certainty = filter(point, triangle, contact, impact);
     if (certainty == Certainty::hit) return impact;
@@ -33,7 +33,7 @@ Impact first_contact(const MovingPoint& point, const MovingTriangle& triangle, C
     return decide_contact(point, triangle, contact);
 }
 
-int compare_impacts(const MovingPoint& point, Contact contact, const MovingTriangle& first, const Impact& one,
+int compare_impacts(const MovingPoint& point, ContactRule contact, const MovingTriangle& first, const Impact& one,
                     const MovingTriangle& second, const Impact& two) noexcept {
     if (one.latest < two.earliest) return -1;
     if (two.latest < one.earliest) return 1;
@@ -41,7 +41,7 @@ int compare_impacts(const MovingPoint& point, Contact contact, const MovingTrian
     return decide_order(point, contact, first, second);
 }
 
-int compare_time(const MovingPoint& point, Contact contact, const MovingTriangle& triangle, const Impact& impact,
+int compare_time(const MovingPoint& point, ContactRule contact, const MovingTriangle& triangle, const Impact& impact,
                  double time) noexcept {
     if (impact.latest < time) return -1;
     if (time < impact.earliest) return 1;
@@ -49,14 +49,14 @@ int compare_time(const MovingPoint& point, Contact contact, const MovingTriangle
     return decide_order(point, contact, triangle, time);
 }
 
-Impact sharpened(const MovingPoint& point, Contact contact, const MovingTriangle& triangle,
+Impact sharpened(const MovingPoint& point, ContactRule contact, const MovingTriangle& triangle,
                  const Impact& impact) noexcept {
     return impact.earliest == impact.latest ? impact : decide_contact(point, triangle, contact);
 }
 
 bool certainly_apart(const MovingPoint& point, const MovingTriangle& triangle) noexcept {
     Impact impact;
-    return filter(point, triangle, Contact::closed, impact) == Certainty::miss;
+    return filter(point, triangle, ContactRule::closed, impact) == Certainty::miss;
 }
 
 }  // namespace pierce::detail

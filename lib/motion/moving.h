@@ -28,9 +28,9 @@ struct MovingTriangle {
 /// for the whole step it never counts. `back` is the same mirrored. `both` counts what `front` and `back` do at times
 /// in (0, 1), at time 0 what `front` does, and at time 1 what comes from behind.
 /// For a triangle that doesn't turn or change its shape these are the rules of `Sides`.
-enum class Contact : std::uint8_t { front, back, both, closed };
+enum class ContactRule : std::uint8_t { front, back, both, closed };
 
-[[nodiscard]] constexpr Contact contact_of(Sides sides) { return static_cast<Contact>(sides); }
+[[nodiscard]] constexpr ContactRule rule_of(Sides sides) { return static_cast<ContactRule>(sides); }
 
 /// The first contact that counts.
 struct Impact {
@@ -45,29 +45,30 @@ struct Impact {
 };
 
 /// A coordinate that is no finite number: no hit.
-[[nodiscard]] Impact first_contact(const MovingPoint& point, const MovingTriangle& triangle, Contact contact) noexcept;
+[[nodiscard]] Impact first_contact(const MovingPoint& point, const MovingTriangle& triangle,
+                                   ContactRule contact) noexcept;
 
 /// Whether they touch at any time in [0, 1].
 [[nodiscard]] inline Impact meets(const MovingPoint& point, const MovingTriangle& triangle) noexcept {
-    return first_contact(point, triangle, Contact::closed);
+    return first_contact(point, triangle, ContactRule::closed);
 }
 /// The first passage that counts, for moving points that must not leak.
 [[nodiscard]] inline Impact strikes(const MovingPoint& point, const MovingTriangle& triangle, Sides sides) noexcept {
-    return first_contact(point, triangle, contact_of(sides));
+    return first_contact(point, triangle, rule_of(sides));
 }
 
 /// The exact order of the times of two impacts of one point, by one rule: < 0 where the first comes before the second,
 /// 0 where they are equal. (So the first hit among many is the least by this, then by face number.) Both must be hits.
-[[nodiscard]] int compare_impacts(const MovingPoint& point, Contact contact, const MovingTriangle& first,
+[[nodiscard]] int compare_impacts(const MovingPoint& point, ContactRule contact, const MovingTriangle& first,
                                   const Impact& one, const MovingTriangle& second, const Impact& two) noexcept;
 
 /// The order of the exact time of an impact and `time`, a finite number.
-[[nodiscard]] int compare_time(const MovingPoint& point, Contact contact, const MovingTriangle& triangle,
+[[nodiscard]] int compare_time(const MovingPoint& point, ContactRule contact, const MovingTriangle& triangle,
                                const Impact& impact, double time) noexcept;
 
 /// The same impact with the narrowest interval: `earliest` is the exact time rounded down to a double, `latest` the
 /// time rounded up. Below 2^-10 the interval may be wider than that, but not wider than 2^-62.
-[[nodiscard]] Impact sharpened(const MovingPoint& point, Contact contact, const MovingTriangle& triangle,
+[[nodiscard]] Impact sharpened(const MovingPoint& point, ContactRule contact, const MovingTriangle& triangle,
                                const Impact& impact) noexcept;
 
 /// True where they certainly do not touch in the whole step: cheap, and never wrong about it.

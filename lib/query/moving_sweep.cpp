@@ -99,7 +99,7 @@ class FirstContact {
         if (!impact.hit || impact.earliest > options_.max_fraction) return;
         if (found_ && !any_ && !comes_first(candidate)) return;
         if (impact.latest > options_.max_fraction &&
-            compare_time(point_, contact_of(options_.sides), candidate.triangle, impact, options_.max_fraction) > 0)
+            compare_time(point_, rule_of(options_.sides), candidate.triangle, impact, options_.max_fraction) > 0)
             return;
         if (options_.accept && !is_accepted(candidate)) return;
         best_ = candidate;
@@ -111,7 +111,7 @@ class FirstContact {
         if (candidate.impact.earliest > best_.impact.latest) return false;
         if (candidate.impact.latest < best_.impact.earliest) return true;
         ++counters_.exact_orders;
-        const int order = compare_impacts(point_, contact_of(options_.sides), candidate.triangle, candidate.impact,
+        const int order = compare_impacts(point_, rule_of(options_.sides), candidate.triangle, candidate.impact,
                                           best_.triangle, best_.impact);
         if (order != 0) return order < 0;
         return candidate.face != best_.face ? candidate.face < best_.face : candidate.number < best_.number;
@@ -121,14 +121,14 @@ class FirstContact {
         const MovingValues values = values_of(point_, options_.sides, candidate);
         const Impact& impact = candidate.impact;
         const Point& w = values.weights;
-        return options_.accept(pierce::Contact{candidate.face,
-                                               candidate.number,
-                                               impact.side,
-                                               impact.feature,
-                                               impact.feature_index,
-                                               impact.at_start,
-                                               values.time,
-                                               {w[0], w[1], w[2]}});
+        return options_.accept(Contact{candidate.face,
+                                       candidate.number,
+                                       impact.side,
+                                       impact.feature,
+                                       impact.feature_index,
+                                       impact.at_start,
+                                       values.time,
+                                       {w[0], w[1], w[2]}});
     }
 
     const MovingScene<Scalar>& scene_;

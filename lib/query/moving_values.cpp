@@ -107,7 +107,7 @@ Point carried(const MovingPoint& point, const MovingCandidate& candidate, const 
 }
 
 MovingValues values_of(const MovingPoint& point, Sides sides, const MovingCandidate& candidate) {
-    const Impact sharp = sharpened(point, contact_of(sides), candidate.triangle, candidate.impact);
+    const Impact sharp = sharpened(point, rule_of(sides), candidate.triangle, candidate.impact);
     MovingValues values = values_at(point, candidate, sharp.earliest + (sharp.latest - sharp.earliest) / 2);
     values.time = sharp.earliest;
     return values;

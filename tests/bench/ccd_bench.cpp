@@ -56,7 +56,7 @@ Cost measure(const std::vector<SharedQuery>& queries) {
                                        }) /
                             repetitions);
         detail::Impact impact;
-        cost.exact.add(detail::filter(q.point, q.triangle, detail::Contact::closed, impact) ==
+        cost.exact.add(detail::filter(q.point, q.triangle, detail::ContactRule::closed, impact) ==
                        detail::Certainty::doubtful);
     }
     std::sort(cost.each.begin(), cost.each.end());

@@ -26,7 +26,7 @@ struct NaiveStep {
     [[nodiscard]] std::optional<Found> first(const Segment<Scalar>& way, const QueryOptions& options) const {
         std::optional<Found> best;
         const detail::MovingPoint point{{detail::to_point(way.from), detail::to_point(way.to)}};
-        const auto contact = detail::contact_of(options.sides);
+        const auto contact = detail::rule_of(options.sides);
         for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
             if (!options.face_mask.empty() && options.face_mask[i] == 0) continue;
             Found found{i, {}, {}};

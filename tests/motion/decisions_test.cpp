@@ -10,7 +10,7 @@ namespace pierce::test {
 
 namespace {
 
-constexpr Contact k_contacts[] = {Contact::front, Contact::back, Contact::both, Contact::closed};
+constexpr ContactRule k_contacts[] = {ContactRule::front, ContactRule::back, ContactRule::both, ContactRule::closed};
 
 std::string text(const Query& q) {
     std::string out;
@@ -32,7 +32,7 @@ struct Counts {
     int hits = 0, in_plane = 0, several = 0, filtered = 0, all = 0;
 };
 
-void check(const Query& q, Contact contact, Counts& counts) {
+void check(const Query& q, ContactRule contact, Counts& counts) {
     const Judgement truth = Judge(q.point, q.triangle).decide(contact);
     const detail::Impact impact = detail::first_contact(q.point, q.triangle, contact);
     ++counts.all;

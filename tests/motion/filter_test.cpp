@@ -13,13 +13,13 @@ namespace pierce::test {
 
 namespace {
 
-using detail::Contact;
+using detail::ContactRule;
 
-constexpr Contact k_contacts[] = {Contact::front, Contact::back, Contact::both, Contact::closed};
+constexpr ContactRule k_contacts[] = {ContactRule::front, ContactRule::back, ContactRule::both, ContactRule::closed};
 
 /// Against exact arithmetic, which the judge has judged (decisions_test.cpp).
 void expect_sound(const Query& q, int& certain) {
-    for (const Contact contact : k_contacts) {
+    for (const ContactRule contact : k_contacts) {
         detail::Impact impact;
         const detail::Certainty certainty = detail::filter(q.point, q.triangle, contact, impact);
         if (certainty == detail::Certainty::doubtful) continue;
@@ -121,7 +121,7 @@ TEST(MovingFilter, TakesAnyNumber) {
                 all_finite = all_finite && std::isfinite(x);
             }
         });
-        const Contact contact = k_contacts[maker.number(0, 3)];
+        const ContactRule contact = k_contacts[maker.number(0, 3)];
         detail::Impact unused;
         if (all_finite && detail::filter(q.point, q.triangle, contact, unused) == detail::Certainty::doubtful &&
             finite++ > 60)

@@ -12,7 +12,7 @@
 
 namespace pierce::test {
 
-using detail::Contact;
+using detail::ContactRule;
 using detail::MovingPoint;
 using detail::MovingTriangle;
 
@@ -64,14 +64,14 @@ class Judge {
         }
     }
 
-    /// The first contact that counts, by the words of detail::Contact.
-    Judgement decide(Contact contact) const {
+    /// The first contact that counts, by the words of detail::ContactRule.
+    Judgement decide(ContactRule contact) const {
         Judgement out;
         out.always_in_plane = f_.empty();
         std::vector<Time> times = roots_of(f_);
         out.roots = static_cast<int>(times.size());
         if (f_.empty()) {
-            if (contact != Contact::closed) return out;
+            if (contact != ContactRule::closed) return out;
             const std::optional<Time> first = first_in_plane();
             if (first) times = {*first};
         }
@@ -87,8 +87,8 @@ class Judge {
             out.feature = place.feature;
             out.index = place.index;
             out.time = time;
-            if (contact == Contact::front || contact == Contact::back)
-                out.side = contact == Contact::front ? Sides::front : Sides::back;
+            if (contact == ContactRule::front || contact == ContactRule::back)
+                out.side = contact == ContactRule::front ? Sides::front : Sides::back;
             else
                 out.side = (start ? after < 0 : before > 0) ? Sides::front : Sides::back;
             return out;
@@ -110,18 +110,18 @@ class Judge {
     }
     static Polynomial dot(const Triple& x, const Triple& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
 
-    static bool counts(Contact contact, bool start, bool end, int before, int after, Feature feature) {
+    static bool counts(ContactRule contact, bool start, bool end, int before, int after, Feature feature) {
         const bool border = feature != Feature::face;
         switch (contact) {
-            case Contact::closed:
+            case ContactRule::closed:
                 return true;
-            case Contact::front:
+            case ContactRule::front:
                 if (start || end) return start && after < 0;
                 return (before > 0 && after < 0) || (border && !(before < 0 && after > 0));
-            case Contact::back:
+            case ContactRule::back:
                 if (start || end) return start && after > 0;
                 return (before < 0 && after > 0) || (border && !(before > 0 && after < 0));
-            case Contact::both:
+            case ContactRule::both:
                 if (start) return after < 0;
                 if (end) return before < 0;
                 return before * after < 0 || border;

@@ -44,7 +44,9 @@ void check_order(int rounds, unsigned seed) {
     int orders[3] = {};
     for (int i = 0; i < rounds; ++i) {
         const Kind kind = k_kinds[i % 6];
-        const Contact contact = i % 3 == 0 ? Contact::front : i % 3 == 1 ? Contact::both : Contact::closed;
+        const ContactRule contact = i % 3 == 0   ? ContactRule::front
+                                    : i % 3 == 1 ? ContactRule::both
+                                                 : ContactRule::closed;
         const Query q = maker.make(kind);
         const detail::MovingTriangle other = another(maker, q, kind);
         const detail::Impact one = detail::first_contact(q.point, q.triangle, contact);

@@ -9,8 +9,8 @@
 #include <pierce/collision_mesh.h>
 #include <pierce/deforming_mesh.h>
 #include <pierce/regions.h>
-#include <pierce/world.h>
 #include <pierce/response.h>
+#include <pierce/world.h>
 #include <support/hash.h>
 #include <support/meshes.h>
 #include <support/segments.h>
@@ -225,7 +225,7 @@ void add_impacts(Hash& hash, double scale, int digits) {
             place(point.at[k]);
             for (detail::Point& corner : triangle.at[k]) place(corner);
         }
-        const auto contact = static_cast<detail::Contact>(i % 4);
+        const auto contact = static_cast<detail::ContactRule>(i % 4);
         const detail::Impact impact = detail::first_contact(point, triangle, contact);
         hash.add(impact.hit ? 1 : 0);
         if (!impact.hit) continue;

@@ -1,9 +1,8 @@
 // Particles slide and bounce in closed real meshes, near and far from the origin: none gets out, and what rests stays
-// where it is. The judge is the exact winding number, by the rule for counting, which moves do not use; of one mesh
-// also CGAL's. Far away in float a mesh is coarse, and folds over itself: it is still closed, so winding numbers must
+// where it is. The judge is the exact winding number, by the rule for counting, which moves do not use.
+// Far away in float a mesh is coarse, and folds over itself: it is still closed, so winding numbers must
 // stay.
 #include <gtest/gtest.h>
-#include <support/inside_oracle.h>
 #include <support/real_meshes.h>
 
 #include "ramps.h"
