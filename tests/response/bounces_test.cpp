@@ -89,7 +89,6 @@ TYPED_TEST(Bounces, bounces_keep_the_energy_that_they_should) {
             Vec3<Scalar> v = V(5 * random.direction()).cast<Scalar>();
             const double speed = v.template cast<double>().norm();
             double lost = 0;
-            double seconds = 0;
             for (int step = 0; step < 60; ++step) {
                 const Move<Scalar> move = move_and_bounce(mesh, x, v, Scalar(0.1), options, contacts);
                 ASSERT_LE(move.contacts, contacts.size());
@@ -101,7 +100,6 @@ TYPED_TEST(Bounces, bounces_keep_the_energy_that_they_should) {
                 ASSERT_EQ(move.remainder, Vec3<Scalar>::Zero());
                 x = move.position;
                 v = move.velocity;
-                seconds += 0.1;
                 ASSERT_FALSE(oracle.outside(x));
             }
             const double energy = v.template cast<double>().squaredNorm();
