@@ -116,7 +116,7 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
             hash.add(passages[k].face_count);
             hash.add(std::bit_cast<Whole>(passages[k].fraction));
         }
-        if (i % 4 == 0) add_spheres(hash, mesh, segment, static_cast<Scalar>(scale * (beyond < 0.5 ? 0.01 : 0.3)));
+        if (i % 40 == 0) add_spheres(hash, mesh, segment, static_cast<Scalar>(scale * (beyond < 0.5 ? 0.01 : 0.3)));
         hash.add(static_cast<std::uint64_t>(mesh.locate(soup.positions[t[0]]).face_count));
     }
     std::vector<FaceRegions> labels;
@@ -149,7 +149,7 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
     DeformingMesh<Scalar> moving(soup.view());
     moving.begin_step(after);
     const DeformationStep<Scalar> step = moving.step();
-    for (std::size_t i = 0; i < segments.size(); i += 4) {
+    for (std::size_t i = 0; i < segments.size(); i += 20) {
         if (const auto hit = step.after().first_hit(segments[i])) hash.add(*hit);
         const auto hit = step.sweep(segments[i], {.sides = Sides::both});
         if (!hit) continue;
@@ -162,7 +162,7 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
 
 // The mesh many times, turned by small quaternions (no sines) and as it is.
 template <class Scalar>
-void add_worlds(Hash& hash, const TriangleSoup<double>& unit, double offset, int count = 4000) {
+void add_worlds(Hash& hash, const TriangleSoup<double>& unit, double offset, int count = 800) {
     const TriangleSoup<Scalar> soup = moved<Scalar>(unit, 1, {0, 0, 0});
     const auto mesh = std::make_shared<const CollisionMesh<Scalar>>(soup.view());
     Random random(23);
@@ -214,7 +214,7 @@ void add_worlds(Hash& hash, const TriangleSoup<double>& unit, double offset, int
 // Moving points and triangles, many of which touch.
 void add_impacts(Hash& hash, double scale, int digits) {
     Random random(9);
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < 2'000; ++i) {
         detail::MovingPoint point;
         detail::MovingTriangle triangle;
         const double grain = std::ldexp(1.0, digits);
