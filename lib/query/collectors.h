@@ -122,6 +122,20 @@ class All {
     [[nodiscard]] std::size_t total() const { return total_; }
     [[nodiscard]] std::size_t kept_count() const { return kept_; }
 
+    /// What is kept of a candidate in a hit.
+    static void keep(const Scene<Scalar>& scene, const Path& path, const Candidate& candidate, QueryCounters& counters,
+                     Hit<Scalar>& hit) {
+        hit.triangle = candidate.triangle.cluster;
+        hit.face = candidate.triangle.lane;
+        hit.side = candidate.decision.side;
+        hit.feature = candidate.decision.feature;
+        hit.feature_index = candidate.decision.feature_index;
+        hit.at_start = candidate.decision.at_start;
+        Values values;
+        Rounded<Scalar> rounded;
+        certify(scene.narrow(), candidate.measured, path, candidate.decision, scene.grain, counters, values, rounded);
+        hit.exact_fraction = rounded.weights[3];
+    }
     /// A kept hit as a candidate again, but for what was measured: its fraction was rounded to `Scalar` on top.
     [[nodiscard]] static Candidate candidate_of(const Hit<Scalar>& hit) {
         const auto fraction = static_cast<double>(hit.exact_fraction);
@@ -144,19 +158,7 @@ class All {
             return comes_before(scene_, path_, candidate_of(x), candidate_of(y), counters_);
         };
     }
-    void write(Hit<Scalar>& hit) {
-        hit.triangle = candidate_.triangle.cluster;
-        hit.face = candidate_.triangle.lane;
-        hit.side = candidate_.decision.side;
-        hit.feature = candidate_.decision.feature;
-        hit.feature_index = candidate_.decision.feature_index;
-        hit.at_start = candidate_.decision.at_start;
-        Values values;
-        Rounded<Scalar> rounded;
-        certify(scene_.narrow(), candidate_.measured, path_, candidate_.decision, scene_.grain, counters_, values,
-                rounded);
-        hit.exact_fraction = rounded.weights[3];
-    }
+    void write(Hit<Scalar>& hit) { keep(scene_, path_, candidate_, counters_, hit); }
 
     const Scene<Scalar>& scene_;
     const Path& path_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <environment.h>
+#include <query/along.h>
 #include <query/collision_mesh_impl.h>
 #include <query/engine.h>
 #include <query/locate.h>
@@ -20,43 +21,6 @@ namespace pierce {
 using namespace detail;
 
 namespace {
-
-/// The caller's counters, or some that nobody looks at.
-class Counters {
-  public:
-    explicit Counters(QueryCounters* given) : counters_(given != nullptr ? *given : spare_) { ++counters_.queries; }
-    operator QueryCounters&() { return counters_; }
-
-  private:
-    QueryCounters spare_;
-    QueryCounters& counters_;
-};
-
-// What is asked of segments and of rays, by the façade in standard arithmetic.
-
-template <class Scalar, class Impl, class Way>
-std::optional<Hit<Scalar>> first_along(const Impl& impl, const Way& way, const QueryOptions& options) {
-    const StandardArithmetic standard;
-    Counters counters(options.counters);
-    if (!impl.valid(way) || !(options.max_fraction >= 0)) return std::nullopt;
-    return detail::first_hit(impl.scene, way, options, counters);
-}
-
-template <class Impl, class Way>
-bool any_along(const Impl& impl, const Way& way, const QueryOptions& options) {
-    const StandardArithmetic standard;
-    Counters counters(options.counters);
-    if (!impl.valid(way) || !(options.max_fraction >= 0)) return false;
-    return detail::any_hit(impl.scene, way, options, counters);
-}
-
-template <class Scalar, class Impl, class Way>
-std::size_t all_along(const Impl& impl, const Way& way, std::span<Hit<Scalar>> out, const QueryOptions& options) {
-    const StandardArithmetic standard;
-    Counters counters(options.counters);
-    if (!impl.valid(way) || !(options.max_fraction >= 0)) return 0;
-    return detail::all_hits(impl.scene, way, out, options, counters);
-}
 
 template <class Impl, class Way>
 int crossings_along(const Impl& impl, const Way& way, QueryCounters* given) {
@@ -117,7 +81,7 @@ CollisionMesh<Scalar>& CollisionMesh<Scalar>::operator=(CollisionMesh&& other) n
 template <class Scalar>
 std::optional<Hit<Scalar>> CollisionMesh<Scalar>::first_hit(const Segment<Scalar>& segment,
                                                             const QueryOptions& options) const noexcept {
-    return first_along<Scalar>(*impl_, segment, options);
+    return first_along<Hit<Scalar>>(*impl_, segment, options);
 }
 
 template <class Scalar>
@@ -139,7 +103,7 @@ int CollisionMesh<Scalar>::crossings(const Segment<Scalar>& segment, QueryCounte
 template <class Scalar>
 std::optional<Hit<Scalar>> CollisionMesh<Scalar>::first_hit_of_ray(const Ray<Scalar>& ray,
                                                                    const QueryOptions& options) const noexcept {
-    return first_along<Scalar>(*impl_, ray, options);
+    return first_along<Hit<Scalar>>(*impl_, ray, options);
 }
 
 template <class Scalar>

@@ -1,5 +1,6 @@
 // The façade of swept spheres.
 #include <environment.h>
+#include <query/along.h>
 #include <query/batch_sizes.h>
 #include <query/collision_mesh_impl.h>
 #include <query/parts.h>
@@ -22,9 +23,7 @@ bool is_valid_sphere(const Impl& impl, const Asked& asked, const Scalar& radius)
 template <class Answer, class Impl, class Asked, class Scalar, class Ask>
 Answer ask(const Impl& impl, const Asked& asked, const Scalar& radius, const QueryOptions& options, Ask&& ask) {
     const StandardArithmetic standard;
-    QueryCounters spare;
-    QueryCounters& counters = options.counters != nullptr ? *options.counters : spare;
-    ++counters.queries;
+    Counters counters(options.counters);
     if (!is_valid_sphere(impl, asked, radius) || !is_limit(options.max_fraction)) return {};
     return ask(counters);
 }

@@ -2,6 +2,7 @@
 #include <pierce/deforming_mesh.h>
 
 #include <environment.h>
+#include <query/along.h>
 #include <query/batch_sizes.h>
 #include <query/collision_mesh_impl.h>
 #include <query/deformation_step_impl.h>
@@ -52,9 +53,7 @@ template <class Scalar>
 std::optional<SweepHit<Scalar>> DeformationStep<Scalar>::sweep(const Segment<Scalar>& way,
                                                                const QueryOptions& options) const noexcept {
     const StandardArithmetic standard;
-    QueryCounters spare;
-    QueryCounters& counters = options.counters != nullptr ? *options.counters : spare;
-    ++counters.queries;
+    Counters counters(options.counters);
     if (!impl_ || !before().impl_->valid(way) || !is_limit(options.max_fraction)) return std::nullopt;
     return detail::sweep(impl_->scene, way, options, counters);
 }
@@ -62,9 +61,7 @@ std::optional<SweepHit<Scalar>> DeformationStep<Scalar>::sweep(const Segment<Sca
 template <class Scalar>
 bool DeformationStep<Scalar>::any_hit(const Segment<Scalar>& way, const QueryOptions& options) const noexcept {
     const StandardArithmetic standard;
-    QueryCounters spare;
-    QueryCounters& counters = options.counters != nullptr ? *options.counters : spare;
-    ++counters.queries;
+    Counters counters(options.counters);
     if (!impl_ || !before().impl_->valid(way) || !is_limit(options.max_fraction)) return false;
     return detail::any_sweep(impl_->scene, way, options, counters);
 }

@@ -111,19 +111,10 @@ bool Refit<Scalar>::all(Scene<Scalar>& scene, const PointsView<Scalar>& position
         Numbers none;
         rewrite_all(scene, now_, none, executor);
     };
-    if (is_empty(box)) {
-        restore();
-        return false;
-    }
-    double unit = 0;
-    try {
-        unit = static_cast<double>(scene_unit(box));
-    } catch (const MeshError&) {
-        restore();
-        throw;
-    }
+    const std::optional<double> unit = unit_or_undo(box, restore);
+    if (!unit) return false;
     std::swap(now_, next_);
-    set_bounds(scene, box, frame_around(in_scene_units<Scalar>(box.low, box.high, unit), unit));
+    set_bounds(scene, box, frame_around(in_scene_units<Scalar>(box.low, box.high, *unit), *unit));
     if (scene.broadphase == Broadphase::tree) write_bounds(shape_, boxes_, scene.frame, scene.tree, executor);
     set_names(scene);
     if (scene.broadphase == Broadphase::grid) make_new_grid(scene, options, executor);

@@ -1,8 +1,10 @@
-// One cluster of a refit, and what a refit asks of triangles.
+// One cluster of a refit, and what a refit asks of triangles and of all of them.
 #pragma once
 
 #include <atomic>
+#include <optional>
 
+#include <cluster/make_clusters.h>
 #include <cluster/write_cluster.h>
 #include <exact/decide.h>
 #include <tree/refit.h>
@@ -45,6 +47,22 @@ template <class Scalar>
     Quad<double> rows[9];
     for (std::size_t r = 0; r < 9; ++r) rows[r] = all_of(corners[r / 3][r % 3]);
     return certainly_have_area<double>(rows)[0] != 0 || !has_zero_area(corners);
+}
+
+/// The unit of a scene in this box. Where it has none, being empty or too small for its distance from the origin
+/// (`MeshError`), the refit is undone first.
+template <class Scalar, class Restore>
+[[nodiscard]] std::optional<double> unit_or_undo(const QuadBox<Scalar>& box, Restore&& restore) {
+    if (is_empty(box)) {
+        restore();
+        return std::nullopt;
+    }
+    try {
+        return static_cast<double>(scene_unit(box));
+    } catch (const MeshError&) {
+        restore();
+        throw;
+    }
 }
 
 }  // namespace pierce::detail

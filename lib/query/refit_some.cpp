@@ -117,18 +117,9 @@ bool Refit<Scalar>::some(Scene<Scalar>& scene, const PointsView<Scalar>& positio
         rewrite_touched(scene, none);
     };
     const QuadBox<Scalar> box = box_of_all();
-    if (is_empty(box)) {
-        restore();
-        return give_up();
-    }
-    double unit = 0;
-    try {
-        unit = static_cast<double>(scene_unit(box));
-    } catch (const MeshError&) {
-        restore();
-        throw;
-    }
-    set_bounds_of_touched(scene, box, unit);
+    const std::optional<double> unit = unit_or_undo(box, restore);
+    if (!unit) return give_up();
+    set_bounds_of_touched(scene, box, *unit);
     set_names(scene);
     if (scene.broadphase == Broadphase::grid) make_new_grid(scene, options, {});
     keep_degenerate_of_touched(scene, degenerate);

@@ -84,19 +84,8 @@ class Ranking {
         };
     }
     void write(std::uint32_t index, const Path& local, const Candidate& candidate, WorldHit<Scalar>& out) const {
-        Hit<Scalar>& hit = out.hit;
         out.mesh = world_.id_of(index);
-        hit.triangle = candidate.triangle.cluster;
-        hit.face = candidate.triangle.lane;
-        hit.side = candidate.decision.side;
-        hit.feature = candidate.decision.feature;
-        hit.feature_index = candidate.decision.feature_index;
-        hit.at_start = candidate.decision.at_start;
-        Values values;
-        Rounded<Scalar> rounded;
-        const Scene<Scalar>& scene = *world_.instances[index].scene;
-        certify(scene.narrow(), candidate.measured, local, candidate.decision, scene.grain, counters_, values, rounded);
-        hit.exact_fraction = rounded.weights[3];
+        All<Scalar>::keep(*world_.instances[index].scene, local, candidate, counters_, out.hit);
     }
 
     const WorldScene<Scalar>& world_;

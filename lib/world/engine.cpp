@@ -42,19 +42,17 @@ std::optional<WorldHit<Scalar>> first_hit(const WorldScene<Scalar>& world, const
     std::array<std::optional<Searched<Scalar>>, 2> rooms;
     std::size_t best = 0;
     bool found = false;
-    each_instance(world, path, options.mask, std::min(1.0, path.most), counters,
-                  [&](std::uint32_t index, const Instance<Scalar>& instance, double limit) {
-                      Path local;
-                      if (!set_local_path(instance, path, local)) return limit;
-                      Searched<Scalar>& search = rooms[1 - best].emplace(world, index, local, options, limit, counters);
-                      traverse<Certified>(*instance.scene, search.local, search.here, counters, search.collector);
-                      if (!search.collector.found()) return limit;
-                      if (found && !comes_before(world, path, search.found(), rooms[best]->found(), counters))
-                          return limit;
-                      found = true;
-                      best = 1 - best;
-                      return std::min(limit, search.collector.best().latest);
-                  });
+    each_image(world, path, options.mask, std::min(1.0, path.most), counters,
+               [&](std::uint32_t index, const Instance<Scalar>& instance, const Path& local, double limit) {
+                   Searched<Scalar>& search = rooms[1 - best].emplace(world, index, local, options, limit, counters);
+                   traverse<Certified>(*instance.scene, search.local, search.here, counters, search.collector);
+                   if (!search.collector.found()) return limit;
+                   if (found && !comes_before(world, path, search.found(), rooms[best]->found(), counters))
+                       return limit;
+                   found = true;
+                   best = 1 - best;
+                   return std::min(limit, search.collector.best().latest);
+               });
     if (!found) return hit;
     const Searched<Scalar>& first = *rooms[best];
     const auto none = [](std::uint32_t, TriangleRef) { return false; };
@@ -68,17 +66,14 @@ bool any_hit(const WorldScene<Scalar>& world, const Way& way, const WorldOptions
     Path path;
     if (!set_path(world, way, options.max_fraction, path)) return false;
     bool found = false;
-    each_instance(world, path, options.mask, std::min(1.0, path.most), counters,
-                  [&](std::uint32_t index, const Instance<Scalar>& instance, double limit) {
-                      Path local;
-                      if (!set_local_path(instance, path, local)) return limit;
-                      const auto none = [](TriangleRef) { return false; };
-                      AnyHere any(instance, options.mask, none);
-                      traverse<Certified>(*instance.scene, local, options_in(options, world.id_of(index)), counters,
-                                          any);
-                      found = any.found();
-                      return found ? -1 : limit;
-                  });
+    each_image(world, path, options.mask, std::min(1.0, path.most), counters,
+               [&](std::uint32_t index, const Instance<Scalar>& instance, const Path& local, double limit) {
+                   const auto none = [](TriangleRef) { return false; };
+                   AnyHere any(instance, options.mask, none);
+                   traverse<Certified>(*instance.scene, local, options_in(options, world.id_of(index)), counters, any);
+                   found = any.found();
+                   return found ? -1 : limit;
+               });
     return found;
 }
 
@@ -88,16 +83,13 @@ std::size_t all_hits(const WorldScene<Scalar>& world, const Way& way, std::span<
     Path path;
     if (!set_path(world, way, options.max_fraction, path)) return 0;
     Ranking<Scalar> ranking(world, path, out, counters);
-    each_instance(world, path, options.mask, std::min(1.0, path.most), counters,
-                  [&](std::uint32_t index, const Instance<Scalar>& instance, double limit) {
-                      Path local;
-                      if (!set_local_path(instance, path, local)) return limit;
-                      const auto add = [&](const Candidate& candidate) { ranking.add(index, local, candidate); };
-                      EachHere each(instance, options.mask, add);
-                      traverse<Certified>(*instance.scene, local, options_in(options, world.id_of(index)), counters,
-                                          each);
-                      return limit;
-                  });
+    each_image(world, path, options.mask, std::min(1.0, path.most), counters,
+               [&](std::uint32_t index, const Instance<Scalar>& instance, const Path& local, double limit) {
+                   const auto add = [&](const Candidate& candidate) { ranking.add(index, local, candidate); };
+                   EachHere each(instance, options.mask, add);
+                   traverse<Certified>(*instance.scene, local, options_in(options, world.id_of(index)), counters, each);
+                   return limit;
+               });
     ranking.sort();
     answer_all(world, path, ranking, options, counters);
     return ranking.total();
@@ -108,11 +100,11 @@ int crossings(const WorldScene<Scalar>& world, const Way& way, std::uint32_t mas
     Path path;
     if (!set_path(world, way, std::numeric_limits<double>::infinity(), path)) return 0;
     int sum = 0;
-    each_instance(world, path, mask, 1, counters, [&](std::uint32_t, const Instance<Scalar>& instance, double limit) {
-        Path local;
-        if (set_local_path(instance, path, local)) sum += crossings_of(*instance.scene, local, counters);
-        return limit;
-    });
+    each_image(world, path, mask, 1, counters,
+               [&](std::uint32_t, const Instance<Scalar>& instance, const Path& local, double limit) {
+                   sum += crossings_of(*instance.scene, local, counters);
+                   return limit;
+               });
     return sum;
 }
 

@@ -34,6 +34,17 @@ void each_instance(const WorldScene<Scalar>& world, const Path& path, std::uint3
     });
 }
 
+/// The same with the way's image, for meshes where it is finite: `use(index, instance, local, limit)`.
+template <class Scalar, class Use>
+void each_image(const WorldScene<Scalar>& world, const Path& path, std::uint32_t mask, double limit,
+                QueryCounters& counters, Use&& use) {
+    each_instance(world, path, mask, limit, counters,
+                  [&](std::uint32_t index, const Instance<Scalar>& instance, double so_far) {
+                      Path local;
+                      return set_local_path(instance, path, local) ? use(index, instance, local, so_far) : so_far;
+                  });
+}
+
 /// The hit whose point is looked for.
 struct OwnHit {
     std::uint32_t index;  ///< of the instance
@@ -127,9 +138,9 @@ class WorldWays {
 
     [[nodiscard]] bool is_stopped_in_others(const Point& there, Stop& stop) const {
         bool found = false;
-        const auto look = [&](std::uint32_t index, const Instance<Scalar>& instance, double) -> double {
-            Path local;
-            if (index == own_.index || !set_local_path(instance, Path{from_, there}, local)) return 1;
+        const auto look = [&](std::uint32_t index, const Instance<Scalar>& instance, const Path& local,
+                              double) -> double {
+            if (index == own_.index) return 1;
             const auto passed = [&](TriangleRef triangle) { return passed_(index, triangle); };
             AnyHere any(instance, options_.mask, passed);
             traverse<Certified>(*instance.scene, local, options_in(options_, world_.id_of(index)), counters_, any);
@@ -144,7 +155,7 @@ class WorldWays {
             }
             return -1;
         };
-        each_instance(world_, Path{from_, there}, options_.mask, 1, counters_, look);
+        each_image(world_, Path{from_, there}, options_.mask, 1, counters_, look);
         return found;
     }
 

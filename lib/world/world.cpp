@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <environment.h>
+#include <query/along.h>
 #include <query/inside.h>
 #include <world/engine.h>
 #include <world/world_impl.h>
@@ -15,41 +16,6 @@ namespace pierce {
 using namespace detail;
 
 namespace {
-
-/// The caller's counters, or some that nobody looks at.
-class Counters {
-  public:
-    explicit Counters(QueryCounters* given) : counters_(given != nullptr ? *given : spare_) { ++counters_.queries; }
-    operator QueryCounters&() { return counters_; }
-
-  private:
-    QueryCounters spare_;
-    QueryCounters& counters_;
-};
-
-template <class Scalar, class Impl, class Way>
-std::optional<WorldHit<Scalar>> first_along(const Impl& impl, const Way& way, const WorldOptions& options) {
-    const StandardArithmetic standard;
-    Counters counters(options.counters);
-    if (!impl.valid(way) || !(options.max_fraction >= 0)) return std::nullopt;
-    return detail::first_hit(impl.scene, way, options, counters);
-}
-
-template <class Impl, class Way>
-bool any_along(const Impl& impl, const Way& way, const WorldOptions& options) {
-    const StandardArithmetic standard;
-    Counters counters(options.counters);
-    if (!impl.valid(way) || !(options.max_fraction >= 0)) return false;
-    return detail::any_hit(impl.scene, way, options, counters);
-}
-
-template <class Scalar, class Impl, class Way>
-std::size_t all_along(const Impl& impl, const Way& way, std::span<WorldHit<Scalar>> out, const WorldOptions& options) {
-    const StandardArithmetic standard;
-    Counters counters(options.counters);
-    if (!impl.valid(way) || !(options.max_fraction >= 0)) return 0;
-    return detail::all_hits(impl.scene, way, out, options, counters);
-}
 
 template <class Impl, class Way>
 int crossings_along(const Impl& impl, const Way& way, const WorldCountOptions& options) {
@@ -170,7 +136,7 @@ Vec3<Scalar> World<Scalar>::to_world(MeshId id, const Vec3<Scalar>& point) const
 template <class Scalar>
 std::optional<WorldHit<Scalar>> World<Scalar>::first_hit(const Segment<Scalar>& segment,
                                                          const WorldOptions& options) const noexcept {
-    return first_along<Scalar>(*impl_, segment, options);
+    return first_along<WorldHit<Scalar>>(*impl_, segment, options);
 }
 template <class Scalar>
 bool World<Scalar>::any_hit(const Segment<Scalar>& segment, const WorldOptions& options) const noexcept {
@@ -179,7 +145,7 @@ bool World<Scalar>::any_hit(const Segment<Scalar>& segment, const WorldOptions& 
 template <class Scalar>
 std::size_t World<Scalar>::all_hits(const Segment<Scalar>& segment, std::span<WorldHit<Scalar>> out,
                                     const WorldOptions& options) const noexcept {
-    return all_along<Scalar>(*impl_, segment, out, options);
+    return all_along(*impl_, segment, out, options);
 }
 template <class Scalar>
 int World<Scalar>::crossings(const Segment<Scalar>& segment, const WorldCountOptions& options) const noexcept {
@@ -188,7 +154,7 @@ int World<Scalar>::crossings(const Segment<Scalar>& segment, const WorldCountOpt
 template <class Scalar>
 std::optional<WorldHit<Scalar>> World<Scalar>::first_hit_of_ray(const Ray<Scalar>& ray,
                                                                 const WorldOptions& options) const noexcept {
-    return first_along<Scalar>(*impl_, ray, options);
+    return first_along<WorldHit<Scalar>>(*impl_, ray, options);
 }
 template <class Scalar>
 bool World<Scalar>::any_hit_of_ray(const Ray<Scalar>& ray, const WorldOptions& options) const noexcept {
@@ -197,7 +163,7 @@ bool World<Scalar>::any_hit_of_ray(const Ray<Scalar>& ray, const WorldOptions& o
 template <class Scalar>
 std::size_t World<Scalar>::all_hits_of_ray(const Ray<Scalar>& ray, std::span<WorldHit<Scalar>> out,
                                            const WorldOptions& options) const noexcept {
-    return all_along<Scalar>(*impl_, ray, out, options);
+    return all_along(*impl_, ray, out, options);
 }
 template <class Scalar>
 int World<Scalar>::crossings_of_ray(const Ray<Scalar>& ray, const WorldCountOptions& options) const noexcept {
