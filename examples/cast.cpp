@@ -7,17 +7,19 @@
 #include <new>
 #include <optional>
 #include <span>
+#include <stdexcept>
+#include <string>
 
 #include <pierce/pierce.h>
 
 #include "cast/answers.h"
 #include "cast/numbers.h"
 #include "cast/options.h"
-#include "cast/picture.h"
-#include "cast/png_file.h"
 #include "cast/progress.h"
 #include "cast/report.h"
 #include "cast/segments.h"
+#include "show/image.h"
+#include "show/picture.h"
 
 namespace {
 
@@ -48,6 +50,20 @@ class OutputFile {
     std::filesystem::path path_;
     std::ofstream stream_;
 };
+
+template <class Scalar>
+show::Image draw(const pierce::CollisionMesh<Scalar>& mesh, const pierce::TriangleSoup<Scalar>& soup,
+                 const PictureOptions& options) {
+    const show::Camera camera(show::corners_of(soup), options.view);
+    show::Canvas canvas(options.view);
+    Progress progress("drawing", static_cast<std::uint64_t>(canvas.rows()));
+    try {
+        show::draw(mesh, camera, canvas, options.threads, {}, [&] { progress.add(1); });
+        return canvas.image();
+    } catch (const std::runtime_error& error) {
+        throw InputError(std::string("cast: ") + error.what());
+    }
+}
 
 template <class Scalar>
 void run(const Options& options) {
@@ -94,11 +110,8 @@ void run(const Options& options) {
     report.segments_hit = answers.segments_hit;
     report.hits = answers.hits;
     if (options.picture) {
-        const auto image = timed(report.draw_time, [&] {
-            Progress progress("drawing", static_cast<std::uint64_t>(options.picture->height));
-            return draw(mesh, soup, *options.picture, progress);
-        });
-        picture_file->stream() << to_png(image);
+        const auto image = timed(report.draw_time, [&] { return draw(mesh, soup, *options.picture); });
+        picture_file->stream() << show::to_png(image);
         picture_file->close();
     }
     // A program that reads the CSV does not want the rest.

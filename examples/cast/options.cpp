@@ -127,19 +127,19 @@ CLI::Option* add_picture_options(CLI::App& app, PictureOptions& picture) {
                            [&](const auto& text) { picture.file = text; });
     add_value(app, "--view", "AZIMUTH,ELEVATION", "Where to look from, in degrees (30,20)", [&](const auto& text) {
         const auto [azimuth, elevation] = split(text, ',', "two numbers such as 30,20");
-        picture.azimuth = number_between(-360.0, 360.0, azimuth);
-        picture.elevation = number_between(-90.0, 90.0, elevation);
+        picture.view.azimuth = number_between(-360.0, 360.0, azimuth);
+        picture.view.elevation = number_between(-90.0, 90.0, elevation);
     })->needs(file);
     add_value(app, "--up", "y|z", "The axis that points up (y)", [&](const auto& text) {
-        picture.z_is_up = parse_z_is_up(text);
+        picture.view.z_is_up = parse_z_is_up(text);
     })->needs(file);
     add_value(app, "--size", "WxH", "Pixels (800x600)", [&](const auto& text) {
         const auto [width, height] = split(text, 'x', "a size such as 800x600");
-        picture.width = number_between(1, 10'000, width);
-        picture.height = number_between(1, 10'000, height);
+        picture.view.width = number_between(1, 10'000, width);
+        picture.view.height = number_between(1, 10'000, height);
     })->needs(file);
     add_value(app, "--samples", "N", "N times N samples a pixel, for smooth edges (1)", [&](const auto& text) {
-        picture.samples = number_between(1, 16, text);
+        picture.view.samples = number_between(1, 16, text);
     })->needs(file);
     add_value(app, "--threads", "N", "Threads that draw (one a processor)", [&](const auto& text) {
         picture.threads = number_between(1u, 1024u, text);

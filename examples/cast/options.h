@@ -9,17 +9,14 @@
 
 #include <pierce/types.h>
 
+#include "show/camera.h"
+
 /// What is asked of each segment.
 enum class Question { first, all, any };
 
 struct PictureOptions {
     std::filesystem::path file;
-    int width = 800;
-    int height = 600;
-    double azimuth = 30;    ///< degrees; 0 looks at the front, 90 at the right-hand side
-    double elevation = 20;  ///< degrees above the horizon
-    bool z_is_up = false;   ///< else y
-    int samples = 1;        ///< along each side of a pixel: this many, squared, in all
+    show::View view;
     unsigned threads = 2;
 };
 

@@ -69,8 +69,8 @@ void write_report(std::ostream& out, const Report& report, const Options& option
         << " ns a segment, one thread)\n";
     if (options.picture) {
         const auto& picture = *options.picture;
-        const auto samples = static_cast<std::uint64_t>(picture.samples);
-        out << "picture   " << picture.file.string() << ": " << picture.width << " x " << picture.height << " pixels, "
+        const auto samples = static_cast<std::uint64_t>(picture.view.samples);
+        out << "picture   " << picture.file.string() << ": " << picture.view.width << " x " << picture.view.height << " pixels, "
             << counted(samples * samples, "sample") << " each, in " << duration(report.draw_time) << " ("
             << counted(picture.threads, "thread") << ")\n";
     }

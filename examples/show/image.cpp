@@ -1,9 +1,12 @@
-// See png_file.h.
-#include "cast/png_file.h"
+// See image.h.
+#include "show/image.h"
+
+#include <fstream>
+#include <stdexcept>
 
 #include <png.h>
 
-#include "cast/numbers.h"
+namespace show {
 
 std::string to_png(const Image& image) {
     png_image png{};
@@ -16,7 +19,16 @@ std::string to_png(const Image& image) {
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
     std::string bytes(size, '\0');
     if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr))
-        throw InputError(std::string("cast: the picture can't be packed: ") + png.message);
+        throw std::runtime_error(std::string("the picture can't be packed: ") + png.message);
     bytes.resize(size);
     return bytes;
 }
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+    std::ofstream stream(path, std::ios::binary);
+    stream << to_png(image);
+    stream.close();
+    if (!stream) throw std::runtime_error(path.string() + ": can't be written");
+}
+
+}  // namespace show
