@@ -1,6 +1,6 @@
-// Bullets ricochet in a hall, go through what is thin, and when they are spent fall down and roll. The same bullets fly in
-// a world of plain floats as well, with the usual test of a segment and a triangle; both count how many of theirs are
-// where none can be.
+// Bullets ricochet in a hall, go through what is thin, and when they are spent fall down and roll. The same bullets fly
+// in a world of plain floats as well, with the usual test of a segment and a triangle; both count how many of theirs
+// are where none can be.
 //   bullets                              a window, with sliders, and a button that shows the other world
 //   bullets --no-window                  600 steps, and the counters
 //   bullets --picture bullets.png        the same with a picture
@@ -27,7 +27,7 @@ using bullets::Vec3;
 
 /// What a bullet does at a wall: it goes through what is at most this thick, if it comes steeply enough.
 constexpr float k_penetrated = 0.5f;
-constexpr float k_steep = 0.7f;       // cosine of the angle to the normal
+constexpr float k_steep = 0.7f;  // cosine of the angle to the normal
 constexpr float k_restitution = bullets::k_restitution;
 constexpr float k_spent = 30;  // meters a second: slower ones go through nothing
 
@@ -67,9 +67,9 @@ void fly(const pierce::CollisionMesh<float>& mesh, Bullet& bullet, float seconds
 
 /// One that is spent bounces, slides and comes to rest: all of it is in the library.
 void roll(const pierce::CollisionMesh<float>& mesh, Bullet& bullet, float seconds) {
-    const auto move = pierce::move_and_bounce(
-        mesh, bullet.position, bullet.velocity, seconds,
-        {.response = {.restitution = k_restitution, .rest_speed = bullets::k_rest_speed}});
+    const auto move =
+        pierce::move_and_bounce(mesh, bullet.position, bullet.velocity, seconds,
+                                {.response = {.restitution = k_restitution, .rest_speed = bullets::k_rest_speed}});
     bullet.position = move.position;
     bullet.velocity = move.velocity;
 }
@@ -125,7 +125,9 @@ class Bullets : public show::Demo {
         std::vector<show::Line> lines;
         for (const Bullet& bullet : shows_plain_ ? theirs_ : ours_)
             lines.push_back({bullet.position.cast<double>(),
-                             (bullet.position - 0.01f * bullet.velocity).cast<double>(), {1, 0.7f, 0.3f}, 1});
+                             (bullet.position - 0.01f * bullet.velocity).cast<double>(),
+                             {1, 0.7f, 0.3f},
+                             1});
         return lines;
     }
     void panel() override {
@@ -135,7 +137,8 @@ class Bullets : public show::Demo {
     }
     [[nodiscard]] std::string summary() const override {
         std::ostringstream text;
-        text << ours_.size() << " bullets, " << steps_ << " steps, lower corner of the hall at " << frame_.translation().x() << '\n'
+        text << ours_.size() << " bullets, " << steps_ << " steps, lower corner of the hall at "
+             << frame_.translation().x() << '\n'
              << "leaked, pierce: " << our_leaks_ << '\n'
              << "leaked, plain floats with a skin of " << skin_ << ": " << their_leaks_ << '\n';
         return text.str();
@@ -145,7 +148,7 @@ class Bullets : public show::Demo {
     static constexpr std::size_t k_part = 16;
     static constexpr float k_seconds = 1.0f / 60;
 
-    /// Exactly, also for the other world: where the winding number is not 0. What lies on a wall has not gone through it.
+    /// Exactly, also for the other world: where the winding number is not 0. What lies on a wall has not gone through.
     [[nodiscard]] bool is_in_room(const Vec3& point) const {
         return mesh_.locate(point).place != pierce::Place::outside;
     }
@@ -193,8 +196,10 @@ int main(int argc, char** argv) {
     CLI::App app("Bullets ricochet in a hall, in two worlds; which of them keeps its bullets?", "bullets");
     show::add_demo_options(app, options);
     app.add_option("--bullets", count, "How many bullets (500)")->check(CLI::Range(1, 1'000'000));
-    app.add_option("--skin", skin, "How far plain floats keep from what they hit, in meters (0)")->check(CLI::Range(0.0, 1.0));
-    app.add_option("--offset", offset, "Coordinates of the hall's lower corner, all three (1000)")->check(CLI::Range(-1e5, 1e5));
+    app.add_option("--skin", skin, "How far plain floats keep from what they hit, in meters (0)")
+        ->check(CLI::Range(0.0, 1.0));
+    app.add_option("--offset", offset, "Coordinates of the hall's lower corner, all three (1000)")
+        ->check(CLI::Range(-1e5, 1e5));
     CLI11_PARSE(app, argc, argv);
     try {
         Bullets demo(count, offset, skin);

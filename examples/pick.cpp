@@ -1,5 +1,5 @@
-// Picks a face of an OpenMesh mesh by a ray, as a click of the mouse does: its handle comes back, with the corner nearest
-// to the place and the vertex normals interpolated there.
+// Picks a face of an OpenMesh mesh by a ray, as a click of the mouse does: its handle comes back, with the vertex that
+// counts most there, and the vertex normals interpolated.
 //   pick [MESH X Y Z DX DY DZ]      without arguments: a cube, from above
 #include <cstdlib>
 #include <iostream>
@@ -51,20 +51,20 @@ int main(int argc, char** argv) {
     mesh.update_normals();
 
     // Copies what it needs: the mesh may change or go away, and this one goes on answering for what it was.
-    const auto queries = pierce::make_collision_mesh(mesh);
+    const pierce::CollisionMesh<double> queries(pierce::from_openmesh(mesh).view());
     const auto hit = queries.first_hit(ray);
     if (!hit) {
         std::cout << "nothing there\n";
         return 1;
     }
 
-    const Mesh::FaceHandle face = pierce::face_handle(*hit);
-    // The weights belong to the corners in the order of the face.
+    const Mesh::FaceHandle face = mesh.face_handle(hit->face);
+    // The weights belong to the corners in the order of fv_ccw_range.
     Mesh::VertexHandle nearest;
     Mesh::Normal normal(0, 0, 0);
     double most = -1;
     int k = 0;
-    for (const auto vertex : mesh.fv_range(face)) {
+    for (const auto vertex : mesh.fv_ccw_range(face)) {
         const double weight = hit->barycentric[k++];
         normal += mesh.normal(vertex) * weight;
         if (weight > most) {
@@ -72,7 +72,8 @@ int main(int argc, char** argv) {
             nearest = vertex;
         }
     }
-    std::cout << "face " << face.idx() << " at (" << hit->position << "), nearest corner: vertex " << nearest.idx()
-              << "\nnormal of the face (" << mesh.normal(face) << "), interpolated (" << normal.normalized() << ")\n";
+    std::cout << "face " << face.idx() << " at (" << hit->position << "), its corner of the largest weight: vertex "
+              << nearest.idx() << "\nnormal of the face (" << mesh.normal(face) << "), interpolated ("
+              << normal.normalized() << ")\n";
     return 0;
 }

@@ -26,7 +26,10 @@ using pierce::MoveState;
 class Rain : public show::Demo {
   public:
     Rain(pierce::TriangleSoup<float> soup, std::size_t count)
-        : soup_(std::move(soup)), mesh_(soup_.view(), {.executor = pierce::tbb_executor()}), drops_(count), has_touched_(count) {
+        : soup_(std::move(soup)),
+          mesh_(soup_.view(), {.executor = pierce::tbb_executor()}),
+          drops_(count),
+          has_touched_(count) {
         for (const Vec3& position : soup_.positions) box_.extend(position);
         gravity_ = 2 * box_.diagonal().y();  // so that it takes a second to fall past the mesh
         // At first they are anywhere above the mesh, so that the rain is even from the start.
@@ -44,9 +47,8 @@ class Rain : public show::Demo {
             if (drop.position.y() < box_.min().y() - 0.1f * box_.diagonal().y() || random() < evaporation_) renew(i);
             velocities[i] = drop.velocity - Vec3(0, gravity_ * seconds_, 0);
         }
-        const pierce::MoveOptions<float> options = {.response = {.restitution = restitution_,
-                                                                 .friction = friction_,
-                                                                 .rest_speed = 2 * gravity_ * seconds_}};
+        const pierce::MoveOptions<float> options = {
+            .response = {.restitution = restitution_, .friction = friction_, .rest_speed = 2 * gravity_ * seconds_}};
         const pierce::PointsView<float> positions(drops_.front().position.data(), drops_.size(), sizeof(Move));
         pierce::moves_and_bounce(mesh_, positions, velocities, seconds_, drops_, options, pierce::tbb_executor());
         for (std::size_t i = 0; i < drops_.size(); ++i)
@@ -64,7 +66,9 @@ class Rain : public show::Demo {
 
     [[nodiscard]] const pierce::CollisionMesh<float>& mesh() const override { return mesh_; }
     [[nodiscard]] const pierce::TriangleSoup<float>& soup() const override { return soup_; }
-    [[nodiscard]] show::Paint paint() const override { return {.front = {0.5f, 0.47f, 0.42f}, .back = {0.6f, 0.2f, 0.2f}}; }
+    [[nodiscard]] show::Paint paint() const override {
+        return {.front = {0.5f, 0.47f, 0.42f}, .back = {0.6f, 0.2f, 0.2f}};
+    }
 
     [[nodiscard]] std::vector<show::Dot> dots() const override {
         std::vector<show::Dot> dots;
@@ -106,8 +110,10 @@ class Rain : public show::Demo {
     void renew(std::size_t i) {
         const Vec3 at(random(), 1.05f + 0.3f * random(), random());
         has_touched_[i] = false;
-        drops_[i] = {.position = box_.min() + at.cwiseProduct(box_.diagonal()), .velocity = Vec3::Zero(),
-                .travel = Vec3::Zero(), .remainder = Vec3::Zero()};
+        drops_[i] = {.position = box_.min() + at.cwiseProduct(box_.diagonal()),
+                     .velocity = Vec3::Zero(),
+                     .travel = Vec3::Zero(),
+                     .remainder = Vec3::Zero()};
     }
 
     pierce::TriangleSoup<float> soup_;

@@ -70,8 +70,8 @@ void write_report(std::ostream& out, const Report& report, const Options& option
     if (options.picture) {
         const auto& picture = *options.picture;
         const auto samples = static_cast<std::uint64_t>(picture.view.samples);
-        out << "picture   " << picture.file.string() << ": " << picture.view.width << " x " << picture.view.height << " pixels, "
-            << counted(samples * samples, "sample") << " each, in " << duration(report.draw_time) << " ("
+        out << "picture   " << picture.file.string() << ": " << picture.view.width << " x " << picture.view.height
+            << " pixels, " << counted(samples * samples, "sample") << " each, in " << duration(report.draw_time) << " ("
             << counted(picture.threads, "thread") << ")\n";
     }
 }

@@ -37,8 +37,8 @@ class Camera {
     [[nodiscard]] Point end_of_sight(double x, double y) const {
         return eye_ + depth_ * (axes_ * Point(x * tangent_.x(), y * tangent_.y(), -1));
     }
-    /// Where a point is in the picture (x, y as above), and how far away along the line of sight through the middle; not
-    /// above 0 behind the camera.
+    /// Where a point is in the picture (x, y as above), and how far away along the middle line of sight: not above 0
+    /// behind the camera.
     [[nodiscard]] Point project(const Point& point) const {
         const Point local = axes_.transpose() * (point - eye_);
         return {local.x() / -local.z() / tangent_.x(), local.y() / -local.z() / tangent_.y(), -local.z()};

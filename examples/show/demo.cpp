@@ -84,22 +84,27 @@ void run_in_window(Demo& demo, const std::string& title, const DemoOptions& opti
     double milliseconds = 0;
     for (int k = 0; window.is_open(); ++k) {
         bool steps_once = false;
-        window.frame(demo.dots(), demo.lines(), [&] {
-            ImGui::Text("%.2f ms a step", milliseconds);
-            if (ImGui::Button(is_paused ? "Go on" : "Pause")) is_paused = !is_paused;
-            ImGui::SameLine();
-            steps_once = ImGui::Button("Step");
-            demo.panel();
-        });
+        const bool is_last = !options.screenshot.empty() && k == options.steps;
+        Image screenshot;
+        window.frame(
+            demo.dots(), demo.lines(),
+            [&] {
+                ImGui::Text("%.2f ms a step", milliseconds);
+                if (ImGui::Button(is_paused ? "Go on" : "Pause")) is_paused = !is_paused;
+                ImGui::SameLine();
+                steps_once = ImGui::Button("Step");
+                demo.panel();
+            },
+            is_last ? &screenshot : nullptr);
+        if (is_last) {
+            write_png(options.screenshot, screenshot);
+            break;
+        }
         if (!is_paused || steps_once) {
             const auto start = Clock::now();
             demo.step();
             milliseconds += 0.1 * (1000 * seconds_since(start) - milliseconds);
             if (demo.mesh_changes()) window.set_mesh(demo.soup(), demo.paint());
-        }
-        if (!options.screenshot.empty() && k == options.steps) {
-            write_png(options.screenshot, window.screenshot());
-            break;
         }
     }
     std::cout << demo.summary();
@@ -120,11 +125,15 @@ void add_demo_options(CLI::App& app, DemoOptions& options) {
     app.add_option("--frames", options.frames, "No window: draw each step into a PNG file in this folder");
     app.add_flag("--no-window", options.no_window, "No window and no picture, figures only");
     app.add_option("--screenshot", options.screenshot, "Of the window, after --steps frames; then end");
-    app.add_option("--size", [&options](const CLI::results_t& values) {
-           return std::sscanf(values.front().c_str(), "%dx%d", &options.view.width, &options.view.height) == 2 &&
-                  options.view.width > 0 && options.view.height > 0 && options.view.width <= 10'000 &&
-                  options.view.height <= 10'000;
-       }, "Pixels (800x600)")->type_name("WxH");
+    app.add_option(
+           "--size",
+           [&options](const CLI::results_t& values) {
+               return std::sscanf(values.front().c_str(), "%dx%d", &options.view.width, &options.view.height) == 2 &&
+                      options.view.width > 0 && options.view.height > 0 && options.view.width <= 10'000 &&
+                      options.view.height <= 10'000;
+           },
+           "Pixels (800x600)")
+        ->type_name("WxH");
     app.add_option("--samples", options.view.samples, "N times N samples a pixel, for smooth edges (1)")
         ->check(CLI::Range(1, 8));
     app.add_option("--azimuth", options.view.azimuth, "Where to look from, in degrees");
@@ -136,8 +145,10 @@ pierce::TriangleSoup<float> mesh_or(const DemoOptions& options, pierce::Triangle
 }
 
 void run(Demo& demo, const std::string& title, const DemoOptions& options) {
-    if (options.picture.empty() && options.frames.empty() && !options.no_window) run_in_window(demo, title, options);
-    else run_without_window(demo, options);
+    if (options.picture.empty() && options.frames.empty() && !options.no_window)
+        run_in_window(demo, title, options);
+    else
+        run_without_window(demo, options);
 }
 
 }  // namespace show

@@ -53,8 +53,8 @@ class Demo {
     [[nodiscard]] virtual std::string summary() const = 0;
 };
 
-/// Runs it as the options say, in a window or without; prints the summary and the time that a step took. Throws std::runtime_error where no
-/// window can be opened or a file can't be written.
+/// Runs it as the options say, in a window or without; prints the summary and the time that a step took. Throws
+/// std::runtime_error where no window can be opened or a file can't be written.
 void run(Demo& demo, const std::string& title, const DemoOptions& options);
 
 /// Reads the mesh, or takes `made` where none is named.

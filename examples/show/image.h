@@ -9,9 +9,9 @@
 namespace show {
 
 struct Image {
-    int width;
-    int height;
-    std::vector<std::uint8_t> rgb;  ///< three bytes a pixel, rows from the top
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgb = {};  ///< three bytes a pixel, rows from the top
 };
 
 /// The bytes of a PNG file, 8-bit RGB. Throws std::runtime_error if libpng gives up.

@@ -19,7 +19,8 @@ pierce::TriangleSoup<float> bumpy_sphere(int n) {
             const Eigen::Vector3f direction =
                 Eigen::Vector3f(static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2]))
                     .normalized();
-            const float bumps = std::sin(5 * direction.x()) * std::sin(4 * direction.y() + 1) * std::cos(6 * direction.z());
+            const float bumps =
+                std::sin(5 * direction.x()) * std::sin(4 * direction.y() + 1) * std::cos(6 * direction.z());
             soup.positions.push_back((1 + 0.2f * bumps) * direction);
         }
         return place->second;
@@ -27,9 +28,7 @@ pierce::TriangleSoup<float> bumpy_sphere(int n) {
     for (int octant = 0; octant < 8; ++octant) {
         const std::array<int, 3> signs = {octant & 1 ? -1 : 1, octant & 2 ? -1 : 1, octant & 4 ? -1 : 1};
         const bool is_turned = signs[0] * signs[1] * signs[2] < 0;
-        const auto at = [&](int i, int j) {
-            return vertex({signs[0] * i, signs[1] * j, signs[2] * (n - i - j)});
-        };
+        const auto at = [&](int i, int j) { return vertex({signs[0] * i, signs[1] * j, signs[2] * (n - i - j)}); };
         const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             soup.triangles.push_back(is_turned ? pierce::IndexTriple{a, c, b} : pierce::IndexTriple{a, b, c});
         };
@@ -77,7 +76,9 @@ pierce::TriangleSoup<float> hall(std::uint32_t seed, const Eigen::Isometry3d& fr
     pierce::TriangleSoup<float> soup;
     add(soup, box(16, frame * Eigen::Translation3d(half) * Eigen::Scaling(half)), true);
     std::mt19937 random(seed);
-    const auto uniform = [&](double from, double to) { return from + (to - from) * 0x1p-32 * static_cast<double>(random()); };
+    const auto uniform = [&](double from, double to) {
+        return from + (to - from) * 0x1p-32 * static_cast<double>(random());
+    };
     // One thing in each square of 5 x 5, no larger than it, in which it may turn.
     for (int i = 0; i < 8; ++i)
         for (int j = 0; j < 8; ++j) {

@@ -17,8 +17,8 @@ pierce::TriangleSoup<float> box(int n, const Eigen::Affine3d& transform);
 /// Adds what is in `more`, with its faces turned around where asked.
 void add(pierce::TriangleSoup<float>& soup, const pierce::TriangleSoup<float>& more, bool turned = false);
 
-/// A level of a game: a closed hall of 40 x 12 x 40 whose walls face inwards, with crates and boulders that face outwards
-/// and do not meet. The winding number is -1 where there is room, 0 in solid matter and outside. `frame` says where its
+/// A level of a game: a closed hall of 40 x 12 x 40 whose walls face inwards, with crates and boulders that face
+/// outwards and do not meet. The winding number is -1 where there is room, 0 in solid matter and outside. `frame` says where its
 /// lower corner and its axes are: far from the origin floats are coarse.
 pierce::TriangleSoup<float> hall(std::uint32_t seed, const Eigen::Isometry3d& frame);
 

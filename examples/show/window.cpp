@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <GLFW/glfw3.h>
-#include <imgui.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl2.h>
+#include <imgui.h>
 #include <Eigen/Geometry>
 
 namespace show {
@@ -50,6 +50,18 @@ void draw_marks(const std::vector<Mark>& marks, GLenum mode) {
     glDrawArrays(mode, 0, static_cast<GLsizei>(marks.size()));
     glDisableClientState(GL_COLOR_ARRAY);
     glDisableClientState(GL_VERTEX_ARRAY);
+}
+
+/// The frame that is about to be shown, its rows turned over: OpenGL has the lowest first.
+Image what_is_seen(int width, int height) {
+    Image image{width, height, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width * height))};
+    std::vector<std::uint8_t> upside_down(image.rgb.size());
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
+    const auto row = static_cast<std::ptrdiff_t>(3) * width;
+    for (int y = 0; y < height; ++y)
+        std::copy_n(upside_down.begin() + (height - 1 - y) * row, row, image.rgb.begin() + y * row);
+    return image;
 }
 
 }  // namespace
@@ -103,9 +115,9 @@ struct Window::Impl {
         glEnable(GL_LIGHTING);
         glEnable(GL_NORMALIZE);
         glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, 1);
-        if (paint.sides == pierce::Sides::back) {
+        if (paint.sides != pierce::Sides::both) {
             glEnable(GL_CULL_FACE);
-            glCullFace(GL_FRONT);
+            glCullFace(paint.sides == pierce::Sides::back ? GL_FRONT : GL_BACK);
         }
         const auto material = [](GLenum side, const Colour& colour) {
             const float values[] = {shown(colour.x()), shown(colour.y()), shown(colour.z()), 1};
@@ -171,12 +183,14 @@ void Window::set_mesh(const pierce::TriangleSoup<float>& soup, const Paint& pain
     }
 }
 
-void Window::frame(std::span<const Dot> dots, std::span<const Line> lines, const std::function<void()>& panel) {
+void Window::frame(std::span<const Dot> dots, std::span<const Line> lines, const std::function<void()>& panel,
+                   Image* screenshot) {
     glfwPollEvents();
     ImGui_ImplOpenGL2_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
     impl_->follow_mouse();
+    ImGui::SetNextWindowPos({10, 10}, ImGuiCond_Once);
     ImGui::Begin("pierce", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
     if (panel) panel();
     ImGui::End();
@@ -207,21 +221,8 @@ void Window::frame(std::span<const Dot> dots, std::span<const Line> lines, const
         draw_marks(marks, GL_LINES);
     }
     ImGui_ImplOpenGL2_RenderDrawData(ImGui::GetDrawData());
+    if (screenshot) *screenshot = what_is_seen(width, height);
     glfwSwapBuffers(impl_->window);
-}
-
-Image Window::screenshot() const {
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(impl_->window, &width, &height);
-    Image image{width, height, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width * height))};
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadBuffer(GL_FRONT);
-    std::vector<std::uint8_t> upside_down(image.rgb.size());
-    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
-    const auto row = static_cast<std::ptrdiff_t>(3) * width;
-    for (int y = 0; y < height; ++y)
-        std::copy_n(upside_down.begin() + (height - 1 - y) * row, row, image.rgb.begin() + y * row);
-    return image;
 }
 
 }  // namespace show

@@ -24,12 +24,12 @@ class Window {
 
     /// False once the user has closed it.
     [[nodiscard]] bool is_open() const;
-    /// What is drawn from now on. Of a mesh whose backs alone are seen one looks through the fronts, into it.
+    /// What is drawn from now on. Sides that are not seen one looks through.
     void set_mesh(const pierce::TriangleSoup<float>& soup, const Paint& paint);
-    /// Draws a frame, and waits for the display. `panel` may call Dear ImGui: a window of its own is open.
-    void frame(std::span<const Dot> dots, std::span<const Line> lines, const std::function<void()>& panel);
-    /// What the last frame looks like, panel included.
-    [[nodiscard]] Image screenshot() const;
+    /// Draws a frame, and waits for the display. `panel` may call Dear ImGui: a window of its own is open. `screenshot`,
+    /// if given, becomes what is seen.
+    void frame(std::span<const Dot> dots, std::span<const Line> lines, const std::function<void()>& panel,
+               Image* screenshot = nullptr);
 
   private:
     struct Impl;

@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# Runs the demos for a few steps, without a window and, where there is a display to be had (xvfb-run), in one:
+#   demos_test.sh FOLDER_OF_THE_PROGRAMS
+set -uo pipefail
+
+programs=$(realpath "$1")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failures=0
+
+fail() {
+    failures=$((failures + 1))
+    echo "FAILED: $*"
+    cat out err
+}
+
+# run PROGRAM ARG...: its status must be 0.
+run() {
+    what=$*
+    timeout 100 "$programs/$1" "${@:2}" >out 2>err </dev/null || fail "$what: status $?"
+}
+prints() { grep -qxE -- "$1" out || fail "$what: does not print '$1'"; }
+# picture FILE COLOURS: a PNG file with so many colours at least, in so many bytes.
+picture() {
+    [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] && [ "$(wc -c <"$1")" -gt "$2" ] ||
+        fail "$what: no picture in $1"
+}
+
+run rain --drops 2000 --steps 150 --picture rain.png --size 320x240
+prints "2000 drops: [0-9]+ free, [0-9]+ bouncing or sliding, [1-9][0-9]* resting, 0 wedged"
+prints "0 inside the mesh after 150 steps"
+picture rain.png 20000
+run rain --drops 500 --steps 3 --frames frames --size 160x120
+[ "$(ls frames)" = $'frame00000.png\nframe00001.png\nframe00002.png' ] || fail "$what: $(ls frames)"
+cmp -s frames/frame00000.png frames/frame00002.png && fail "$what: nothing moves"
+
+# The promise: in one run, pierce keeps its bullets, and the usual floats don't.
+run bullets --bullets 300 --steps 240 --picture bullets.png --size 320x240
+prints "leaked, pierce: 0"
+prints "leaked, plain floats with a skin of 0: [1-9][0-9]*"
+picture bullets.png 20000
+
+run lidar --turns 2
+prints "131072 of 131072 rays came back, .* million rays a second"
+picture range.png 5000
+[ "$(wc -c <cloud.ply)" -eq $((131072 * 16 + $(head -n 8 cloud.ply | wc -c))) ] || fail "$what: size of the cloud"
+
+run pick
+prints "face 3 at \(0\.45 0\.6 1\), its corner of the largest weight: vertex 7"
+
+if "$programs/rain" --help | grep -q screenshot && command -v xvfb-run >/dev/null; then
+    for demo in rain bullets; do
+        what="$demo in a window"
+        timeout 100 xvfb-run -a -s "-screen 0 800x600x24" "$programs/$demo" --steps 20 --screenshot "$demo.window.png" \
+            --size 640x480 >out 2>err </dev/null || fail "$what: status $?"
+        picture "$demo.window.png" 20000
+    done
+else
+    echo "no xvfb-run: the windows of the demos are not tried"
+fi
+
+[ "$failures" -eq 0 ] && echo "all demos do what they should"
+exit "$((failures > 0))"
