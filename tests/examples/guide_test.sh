@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# Every block of C++ in the guide and in README.md compiles: one with includes stands by itself, others are statements
+# about a mesh, a particle and the like. Usage: guide_test.sh COMPILER INCLUDE_FLAGS...
+set -euo pipefail
+
+root=$(cd "$(dirname "$0")/../.." && pwd)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+{
+    cat <<'CODE'
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <pierce/pierce.h>
+#include <pierce/tbb.h>
+
+struct Vertex {
+    float x, y, z;
+    float u, v;
+};
+CODE
+    for page in "$root"/README.md "$root"/examples/guide/*.md; do
+        awk -v page="${page#"$root"/}" '
+            function flush_block() {
+                # What has an include or a function of its own stands by itself; two programs are two namespaces.
+                ++count
+                name = page; gsub(/[^a-zA-Z0-9]/, "_", name)
+                sub(/int main\(\) {/, "int program() {", text)
+                if (text ~ /int program/) sub(/}\n$/, "    return 0;\n}\n", text)
+                if (own) { printf "%snamespace %s_%d {\n#line %d \"%s\"\n%s}\n", includes, name, count, first, page, text }
+                else printf "void %s_%d([[maybe_unused]] const pierce::CollisionMesh<float>& mesh, [[maybe_unused]] std::vector<Vertex>& vertices, [[maybe_unused]] std::vector<std::uint16_t>& indices, [[maybe_unused]] std::vector<Eigen::Vector3f>& starts, [[maybe_unused]] std::vector<Eigen::Vector3f>& ends, [[maybe_unused]] Eigen::Vector3f& position, [[maybe_unused]] Eigen::Vector3f& velocity, [[maybe_unused]] Eigen::Vector3f& target, [[maybe_unused]] float seconds) {{\n#line %d \"%s\"\n%s}}\n", name, count, first, page, text
+            }
+            /^```cpp$/ { inside = 1; text = includes = ""; own = 0; first = NR + 1; next }
+            /^```$/ { if (inside) flush_block(); inside = 0; next }
+            inside && /^#include/ { own = 1; includes = includes $0 "\n"; text = text "\n"; next }
+            inside { text = text $0 "\n" }' "$page"
+    done
+} >"$folder/guide.cpp"
+blocks=$(grep -c '^#line' "$folder/guide.cpp")
+[ "$blocks" -gt 15 ] || { echo "only $blocks blocks of C++ were found"; exit 1; }
+"$@" -std=c++20 -fsyntax-only -Wall -Wextra -Wno-unused-variable -Wno-unused-but-set-variable -Werror -I"$root/include" "$folder/guide.cpp"
+echo "$blocks blocks compile"
