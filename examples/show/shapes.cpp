@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <random>
+#include <vector>
 
 namespace show {
 
@@ -95,6 +96,56 @@ pierce::TriangleSoup<float> hall(std::uint32_t seed, const Eigen::Isometry3d& fr
                 add(soup, box(2, frame * Eigen::Translation3d(middle) * turn * Eigen::Scaling(size)));
             }
         }
+    return soup;
+}
+
+pierce::TriangleSoup<float> paddle_drum() {
+    // The outline: the wall, and for each paddle a step in to 0.7 and out again. All of it is seen from the axis.
+    std::vector<Eigen::Vector2f> outline;
+    const auto add_point = [&](double degrees, double radius) {
+        const double angle = degrees * std::numbers::pi / 180;
+        outline.emplace_back(static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle)));
+    };
+    for (int paddle = 0; paddle < 6; ++paddle) {
+        for (int k = 0; k < 7; ++k) add_point(60 * paddle + 8 * k, 1);
+        add_point(60 * paddle + 51, 0.7);
+        add_point(60 * paddle + 53, 0.7);
+    }
+    constexpr int slices = 6;
+    const auto count = static_cast<std::uint32_t>(outline.size());
+    pierce::TriangleSoup<float> soup;
+    for (int slice = 0; slice <= slices; ++slice)
+        for (const Eigen::Vector2f& point : outline)
+            soup.positions.emplace_back(point.x(), point.y(), static_cast<float>(slice) / slices - 0.5f);
+    for (std::uint32_t slice = 0; slice < slices; ++slice)
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const std::uint32_t a = slice * count + k, b = slice * count + (k + 1) % count;
+            soup.triangles.push_back({a, b + count, b});
+            soup.triangles.push_back({a, a + count, b + count});
+        }
+    for (const bool is_front : {false, true}) {
+        const auto middle = static_cast<std::uint32_t>(soup.positions.size());
+        soup.positions.emplace_back(0.0f, 0.0f, is_front ? 0.5f : -0.5f);
+        const std::uint32_t first = is_front ? slices * count : 0;
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const std::uint32_t a = first + k, b = first + (k + 1) % count;
+            soup.triangles.push_back(is_front ? pierce::IndexTriple{middle, b, a} : pierce::IndexTriple{middle, a, b});
+        }
+    }
+    return soup;
+}
+
+pierce::TriangleSoup<float> courtyard() {
+    const auto at = [](double x, double y, double z, double width, double height, double depth) {
+        return Eigen::Affine3d(Eigen::Translation3d(x, y, z) * Eigen::Scaling(width / 2, height / 2, depth / 2));
+    };
+    pierce::TriangleSoup<float> soup;
+    add(soup, box(60, at(12, 3, 12, 24, 6, 24)), true);
+    for (const double x : {4.0, 12.0, 20.0})
+        for (const double z : {4.0, 20.0}) add(soup, box(4, at(x, 2.5, z, 0.8, 4, 0.8)));
+    // The ramp stands a little above the floor: pieces that meet would be one surface with folds.
+    const Eigen::AngleAxisd slope(0.3, Eigen::Vector3d::UnitZ());
+    add(soup, box(10, Eigen::Translation3d(13, 1, 12) * slope * Eigen::Scaling(3.0, 0.1, 2.0)));
     return soup;
 }
 

@@ -22,4 +22,10 @@ void add(pierce::TriangleSoup<float>& soup, const pierce::TriangleSoup<float>& m
 /// lower corner and its axes are: far from the origin floats are coarse.
 pierce::TriangleSoup<float> hall(std::uint32_t seed, const Eigen::Isometry3d& frame);
 
+/// A closed drum of radius 1 around the z axis, 1 long, with six paddles inside. Its faces look inwards.
+pierce::TriangleSoup<float> paddle_drum();
+
+/// A closed courtyard of 24 x 6 x 24 whose walls face inwards, on a floor of 60 x 60 squares, with pillars and a ramp.
+pierce::TriangleSoup<float> courtyard();
+
 }  // namespace show
