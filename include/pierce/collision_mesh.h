@@ -59,9 +59,9 @@ struct MeshStatistics {
 /// Triangles in a broadphase (`BuildOptions`). Copies what it needs of the mesh.
 ///
 /// Queries never throw, never assert and end for every input. The answer depends on the mesh and the segment only, to
-/// the last bit: not on the broadphase, the threads, the machine or the order of queries. One end may be as far away as
-/// numbers go; where both are further from the mesh than some 10^9 times its size, boxes are told apart less and less
-/// well, and queries get slower.
+/// the last bit: not on the broadphase, the threads, the machine or the order of queries. Ends may be as far away as
+/// numbers go. Where both are further from the mesh than some 10^10 times its size, the values of a hit take exact
+/// arithmetic in double, some 7 us a hit; `any_hit` and misses cost what they cost from near.
 template <class Scalar>
 class PIERCE_EXPORT CollisionMesh {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
@@ -126,9 +126,9 @@ class PIERCE_EXPORT CollisionMesh {
     /// The same for a ray (`Ray` says what it is). `fraction`, `exact_fraction`, `max_fraction` and `Contact::fraction`
     /// are then the ray's t, the exact one within 1 ulp, or the largest number where t is above it. The rules are those
     /// of the segment that ends at the ray's true end, and so are the promises: the way from `origin` to the hit's
-    /// `point` has no hit, so that a chain of rays from point to point cannot get through a closed surface. A ray costs
-    /// what the part of it in the mesh's box costs, from origins up to some 2^80 mesh sizes away. (Templates, so that
-    /// `first_hit({from, to})` is a segment.)
+    /// `point` has no hit, so that a chain of rays from point to point cannot get through a closed surface. A ray visits
+    /// what the part of it in the mesh's box visits, from origins up to some 2^80 mesh sizes away; what a hit's values
+    /// cost from far away is said above. (Templates, so that `first_hit({from, to})` is a segment.)
     template <std::same_as<Ray<Scalar>> Way>
     [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Way& ray,
                                                        const QueryOptions& options = {}) const noexcept {

@@ -40,8 +40,9 @@ class Executor {
     template <class Callable>
     requires(Kept::keeps<Callable>) Executor(const Callable& callable) : kept_(callable) {}
     template <class Callable>
-    requires(!Kept::keeps<Callable> && std::is_invocable_v<Callable&, std::size_t, Task>) Executor(const Callable&)
-    = delete;  // too large, not trivially copyable, or changing: wrap it in std::ref
+    requires(!Kept::keeps<Callable> && std::is_invocable_v<Callable&, std::size_t, Task>) Executor(const Callable&) {
+        static_assert(Kept::template keeps<Callable>, PIERCE_REFUSED_CALLABLE);
+    }
 
     explicit operator bool() const { return static_cast<bool>(kept_); }
     void operator()(std::size_t parts, Task task) const {

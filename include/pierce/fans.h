@@ -122,7 +122,8 @@ std::vector<Fan> fans_of(const MeshView<Scalar>& mesh, std::size_t most) {
         const IndexTriple& t = mesh.triangles[i];
         for (const std::uint32_t v : t)
             if (v >= mesh.positions.size())
-                throw_mesh_error("triangle " + std::to_string(i) + ": there is no vertex " + std::to_string(v));
+                throw_mesh_error("triangle " + std::to_string(i) + ": vertex index " + std::to_string(v) +
+                                 " is out of range (" + std::to_string(mesh.positions.size()) + " vertices)");
         if (fans_detail::has_bases(mesh, t)) {
             for (const std::uint32_t v : t) around[v].push_back(i);
         } else {

@@ -24,6 +24,10 @@ struct FaceRegions {
 ///
 /// Edges are those of equal coordinates, as in `MeshReport`; triangles of area zero are left out. Faces that coincide
 /// agree if there is an order of them that does.
+///
+/// **Faces must not pass through each other**: they may meet at edges and vertices they share, and coincide. Where two
+/// volumes overlap, faces cross away from all edges. The labels agree around each edge then, and not in space. That is
+/// not looked for; a flight through such a place shows it by a leg that is not consistent (`Leg::consistent`).
 struct LabelReport {
     static constexpr std::size_t k_examples = 8;
 
@@ -38,8 +42,8 @@ struct LabelReport {
     std::vector<Disagreement> edge_list;      ///< the first ones
     std::vector<Disagreement> floating_list;  ///< the first ones: `edge` is a vertex of the part, twice
 
-    /// Every point of space has one region, whatever face it is seen from: no flight comes to a leg that is not
-    /// consistent.
+    /// If no faces pass through each other: every point of space has one region, whatever face it is seen from, and no
+    /// flight comes to a leg that is not consistent.
     [[nodiscard]] bool agree() const { return edges == 0 && floating == 0; }
 
     /// A few lines for people.

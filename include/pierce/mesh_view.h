@@ -12,7 +12,7 @@
 
 namespace pierce {
 
-/// The corners of `size()` triangles, as indices of 32 or 16 bits: three in a row, and from one triangle to the next a
+/// The corners of `size()` triangles, as indices of 32 bits, signed or not, or of 16: three in a row, and from one triangle to the next a
 /// fixed number of bytes. A `std::vector<IndexTriple>`, the flat index buffer of a game (a list, not a strip), or a
 /// part of either. Not owned, nothing is copied.
 class TrianglesView {
@@ -21,6 +21,9 @@ class TrianglesView {
 
     /// `stride`: bytes from one triangle's first index to the next one's. They need no alignment.
     TrianglesView(const std::uint32_t* first, std::size_t size, std::ptrdiff_t stride = 3 * sizeof(std::uint32_t))
+        : first_(reinterpret_cast<const std::byte*>(first)), size_(size), stride_(stride) {}
+    /// Signed ones, as in many programs: a negative one is out of range.
+    TrianglesView(const std::int32_t* first, std::size_t size, std::ptrdiff_t stride = 3 * sizeof(std::int32_t))
         : first_(reinterpret_cast<const std::byte*>(first)), size_(size), stride_(stride) {}
     TrianglesView(const std::uint16_t* first, std::size_t size, std::ptrdiff_t stride = 3 * sizeof(std::uint16_t))
         : first_(reinterpret_cast<const std::byte*>(first)), size_(size), stride_(stride), short_(true) {}
@@ -34,6 +37,10 @@ class TrianglesView {
 
     /// Three indices a triangle. Building refuses a mesh that has some left.
     template <detail::SpanOf<std::uint32_t> Range>
+    TrianglesView(const Range& indices) : TrianglesView(std::data(indices), std::size(indices) / 3) {
+        left_over_ = std::size(indices) % 3;
+    }
+    template <detail::SpanOf<std::int32_t> Range>
     TrianglesView(const Range& indices) : TrianglesView(std::data(indices), std::size(indices) / 3) {
         left_over_ = std::size(indices) % 3;
     }

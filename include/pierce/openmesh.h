@@ -224,7 +224,8 @@ OpenMeshFaces to_openmesh(const TriangleSoup<Scalar>& soup, Mesh& mesh) {
     for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
         for (const std::uint32_t index : soup.triangles[t]) {
             if (index >= soup.positions.size())
-                throw_mesh_error("triangle " + std::to_string(t) + ": there is no vertex " + std::to_string(index));
+                throw_mesh_error("triangle " + std::to_string(t) + ": vertex index " + std::to_string(index) +
+                                 " is out of range (" + std::to_string(soup.positions.size()) + " vertices)");
         }
     }
     using Coordinate = typename Mesh::Scalar;

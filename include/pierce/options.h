@@ -82,8 +82,9 @@ class Accept {
     template <class Callable>
     requires(Kept::keeps<Callable>) Accept(const Callable& callable) : kept_(callable) {}
     template <class Callable>
-    requires(!Kept::keeps<Callable> && std::is_invocable_r_v<bool, Callable&, const Contact&>) Accept(const Callable&)
-    = delete;  // too large, not trivially copyable, or changing: wrap it in std::ref
+    requires(!Kept::keeps<Callable> && std::is_invocable_r_v<bool, Callable&, const Contact&>) Accept(const Callable&) {
+        static_assert(Kept::template keeps<Callable>, PIERCE_REFUSED_CALLABLE);
+    }
 
     explicit operator bool() const { return static_cast<bool>(kept_); }
     bool operator()(const Contact& contact) const { return kept_(contact); }

@@ -1,5 +1,5 @@
 // pierce for programs in C (C17), and for languages that call C: the meshes, queries, batches and regions of
-// <pierce/pierce.h>. C++ programs may include it as well.
+// <pierce/pierce.h>. C++ programs (C++11 and newer) may include it as well.
 //
 //   pierce_mesh_d* floor = NULL;
 //   const pierce_points_d positions = {.first = corners, .count = 4};           // double corners[12]
@@ -34,7 +34,8 @@
 // libpierce.a needs behind it. With CMake, `find_package(pierce)` and `pierce::pierce` in a
 // `project(... LANGUAGES C CXX)`: the C++ compiler links the program where pierce is static.
 //
-// Not here, for C++ only: `explain`, the lists of examples in reports, single-triangle kernels and fans, OpenMesh.
+// Not here, for C++ only: balls, responses, meshes that move or deform, worlds of many meshes, `explain`, the lists of
+// examples in reports, single-triangle kernels and fans, OpenMesh.
 #pragma once
 
 #include <pierce/pierce_c/basics.h>

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <span>
 
+#include <pierce/export.h>
 #include <pierce/types.h>
 
 namespace pierce {
@@ -20,6 +21,9 @@ template <class Matrix, class Scalar>
 concept HasColumns = std::same_as<typename Matrix::Scalar, Scalar> &&(Matrix::Flags& Eigen::DirectAccessBit) != 0 &&
                      (Matrix::RowsAtCompileTime == 3 || Matrix::RowsAtCompileTime == Eigen::Dynamic) &&
                      Matrix::InnerStrideAtCompileTime == 1 && !Matrix::IsRowMajor;
+
+/// Throws std::invalid_argument, from within the library, as `throw_mesh_error` does.
+[[noreturn]] PIERCE_EXPORT void refuse_rows(std::ptrdiff_t rows);
 
 }  // namespace detail
 
@@ -47,12 +51,13 @@ class PointsView {
     requires std::same_as<Scalar, double> PointsView(const Range& points)
         : PointsView(first_of(std::span<const Vec3<float>>(points)), std::size(points)) {}
 
-    /// The columns of a matrix, which must have three rows.
+    /// The columns of a matrix. Throws std::invalid_argument where it has not three rows: one with three columns and a
+    /// point in each row has to be transposed, or given by a pointer and a stride if it is row-major.
     template <class Matrix>
     requires detail::HasColumns<Matrix, Scalar> PointsView(const Eigen::MatrixBase<Matrix>& columns)
         : PointsView(columns.derived().data(), static_cast<std::size_t>(columns.cols()),
                      columns.derived().outerStride() * static_cast<std::ptrdiff_t>(sizeof(Scalar))) {
-        eigen_assert(columns.rows() == 3);
+        if (columns.rows() != 3) detail::refuse_rows(columns.rows());
     }
 
     [[nodiscard]] std::size_t size() const { return size_; }

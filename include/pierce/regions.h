@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include <pierce/collision_mesh.h>
 #include <pierce/export.h>
 #include <pierce/label_report.h>
 #include <pierce/ray.h>
+#include <pierce/result.h>
 #include <pierce/types.h>
 
 namespace pierce {
@@ -51,8 +53,9 @@ struct RegionPlace {
 /// infinitesimal vector, the same for all. So no point lies on a face, no flight meets an edge or a vertex, and each
 /// point and flight has one answer: a point on a face lies in one of its two regions, a flight through an edge where
 /// many regions meet crosses one face after the other, and where a flight ends the next one goes on. In a model whose
-/// labels agree (`check`) that means: the region behind the last face that a flight crosses is the region of its end,
-/// always, so that a particle's region and its position never disagree and no particle is lost.
+/// labels agree (`check`) and whose faces do not pass through each other (volumes that overlap have such faces) that
+/// means: the region behind the last face that a flight crosses is the region of its end, always, so that a particle's
+/// region and its position never disagree and no particle is lost.
 ///
 /// **A transport loop.** The particle is at `point`, in `region`; the next collision is at `distance`:
 ///
@@ -76,6 +79,10 @@ class PIERCE_EXPORT Regions {
     /// `labels[f]` is for the caller's face f (`MeshView::faces`). `outside`: the region around the model. Throws
     /// std::invalid_argument where a face has no label. Takes time and memory in proportion to the triangles.
     Regions(const CollisionMesh<Scalar>& mesh, std::span<const FaceRegions> labels, std::uint32_t outside = 0);
+    /// The same without exceptions: nothing, a status and the exception's text where the constructor throws.
+    [[nodiscard]] static Result<std::optional<Regions>> try_make(const CollisionMesh<Scalar>& mesh,
+                                                                 std::span<const FaceRegions> labels,
+                                                                 std::uint32_t outside = 0) noexcept;
     ~Regions();
     Regions(Regions&&) noexcept;
     Regions& operator=(Regions&&) noexcept;
@@ -112,8 +119,8 @@ class PIERCE_EXPORT Regions {
     [[nodiscard]] RegionPlace<Scalar> cross(const Ray<Scalar>& flight, const Leg<Scalar>& first) const noexcept;
 
     /// Whether the labels agree wherever two faces bound one region: `LabelReport`. Looks at the faces around each
-    /// edge, in exact order. Takes memory for them; n log n time for n triangles, and
-    /// the square of their number for triangles that coincide.
+    /// edge, in exact order; faces that pass through each other are not looked for. Takes memory for them; n log n time
+    /// for n triangles, and the square of their number for triangles that coincide.
     [[nodiscard]] LabelReport check() const;
 
     [[nodiscard]] std::uint32_t outside() const noexcept;

@@ -84,8 +84,10 @@ class ResponseAt {
     requires(Kept::template keeps<Callable>) ResponseAt(const Callable& callable) : kept_(callable) {}
     template <class Callable>
     requires(!Kept::template keeps<Callable> &&
-             std::is_invocable_r_v<Response<Scalar>, Callable&, const MoveContact<Scalar>&>) ResponseAt(const Callable&)
-    = delete;  // too large, not trivially copyable, or changing: wrap it in std::ref
+             std::is_invocable_r_v<Response<Scalar>, Callable&, const MoveContact<Scalar>&>)
+        ResponseAt(const Callable&) {
+        static_assert(Kept::template keeps<Callable>, PIERCE_REFUSED_CALLABLE);
+    }
 
     explicit operator bool() const { return static_cast<bool>(kept_); }
     Response<Scalar> operator()(const MoveContact<Scalar>& contact) const { return kept_(contact); }

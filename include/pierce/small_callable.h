@@ -5,6 +5,11 @@
 #include <new>
 #include <type_traits>
 
+/// What the compiler says of one that is not kept.
+#define PIERCE_REFUSED_CALLABLE                                                                                       \
+    "pierce keeps callables of up to four pointers that are trivially copyable and can be called as constants: this " \
+    "one is larger, owns memory or changes; wrap it in std::ref, and keep it alive"
+
 namespace pierce::detail {
 
 /// Room for a lambda that captures four pointers, or references.
@@ -31,11 +36,13 @@ class SmallCallable<Result(Arguments...)> {
     SmallCallable() = default;
     template <class Callable>
     requires keeps<Callable>
-    explicit SmallCallable(const Callable& callable)
-        : call_([](const void* room, Arguments... arguments) -> Result {
-              return (*std::launder(static_cast<const std::decay_t<Callable>*>(room)))(
-                  static_cast<Arguments>(arguments)...);
-          }) {
+    explicit SmallCallable(const Callable& callable) {
+        if constexpr (std::is_pointer_v<std::decay_t<Callable>>)
+            if (std::decay_t<Callable>(callable) == nullptr) return;  // a null pointer is none, as for std::function
+        call_ = [](const void* room, Arguments... arguments) -> Result {
+            return (*std::launder(static_cast<const std::decay_t<Callable>*>(room)))(
+                static_cast<Arguments>(arguments)...);
+        };
         ::new (static_cast<void*>(room_)) std::decay_t<Callable>(callable);
     }
 

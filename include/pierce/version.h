@@ -12,7 +12,7 @@
 #define PIERCE_TEXT_OF(value) #value
 #define PIERCE_TEXT(value) PIERCE_TEXT_OF(value)
 
-#ifdef __cplusplus
+#if defined(__cplusplus) && __cplusplus >= 201703L
 #include <string_view>
 
 namespace pierce {

@@ -64,8 +64,9 @@ class WorldAccept {
     requires(Kept::keeps<Callable>) WorldAccept(const Callable& callable) : kept_(callable) {}
     template <class Callable>
     requires(!Kept::keeps<Callable> && std::is_invocable_r_v<bool, Callable&, MeshId, const Contact&>)
-        WorldAccept(const Callable&)
-    = delete;  // too large, not trivially copyable, or changing: wrap it in std::ref
+        WorldAccept(const Callable&) {
+        static_assert(Kept::template keeps<Callable>, PIERCE_REFUSED_CALLABLE);
+    }
 
     explicit operator bool() const { return static_cast<bool>(kept_); }
     bool operator()(MeshId mesh, const Contact& contact) const { return kept_(mesh, contact); }

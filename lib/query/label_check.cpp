@@ -1,11 +1,11 @@
 // Whether labels agree: around each edge, and between parts of the surface that share no edge.
 //
-// That makes them agree everywhere. A cell is a part of space between faces. Faces of one part of the surface that
-// bound one cell are joined by edges, around which they are neighbours, so they say the same of it. Other parts in the
-// cell's boundary are joined to it by rays: from the vertex of a part that is furthest along x, moved as in crossing.h,
-// a ray along x does not cross the part itself, as all of it lies behind. Where it crosses another, that one bounds the
-// same cell and reaches further along x; where it crosses none, the cell is the outside. So by induction all parts that
-// bound a cell are joined to one another, and the last to the outside.
+// Where no faces pass through each other, that makes them agree everywhere. A cell is a part of space between faces.
+// Faces of one part of the surface that bound one cell are joined by edges, around which they are neighbours, so they
+// say the same of it. Other parts in the cell's boundary are joined to it by rays: from the vertex of a part that is
+// furthest along x, moved as in crossing.h, a ray along x does not cross the part itself, as all of it lies behind.
+// Where it crosses another, that one bounds the same cell and reaches further along x; where it crosses none, the cell
+// is the outside. So by induction all parts that bound a cell are joined to one another, and the last to the outside.
 #include <query/label_check.h>
 
 #include <numeric>

@@ -8,6 +8,7 @@
 #include <query/label_check.h>
 #include <query/region_place.h>
 #include <query/region_walk.h>
+#include <without_exceptions.h>
 
 namespace pierce {
 
@@ -34,6 +35,15 @@ Regions<Scalar>::Regions(const CollisionMesh<Scalar>& mesh, std::span<const Face
     scene.each_triangle([&](TriangleRef triangle) { where[scene.number_of(triangle)] = triangle; });
 }
 
+template <class Scalar>
+Result<std::optional<Regions<Scalar>>> Regions<Scalar>::try_make(const CollisionMesh<Scalar>& mesh,
+                                                                 std::span<const FaceRegions> labels,
+                                                                 std::uint32_t outside) noexcept {
+    Result<std::optional<Regions>> result;
+    result.status =
+        without_exceptions([&] { result.value.emplace(mesh, labels, outside); }, Status::bad_mesh, result.message);
+    return result;
+}
 template <class Scalar>
 Regions<Scalar>::~Regions() = default;
 template <class Scalar>

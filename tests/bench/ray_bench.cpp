@@ -143,5 +143,5 @@ int main(int argc, char** argv) {
     }
     for (int i = 1; i < argc; ++i) add(read_mesh<double>(argv[i]), argv[i]);
     std::sort(ratios.begin(), ratios.end());
-    std::cout << "ratio ours.ray " << ratios[ratios.size() / 2] << '\n';
+    std::cout << "ratio ours.ray " << ratios[(ratios.size() - 1) / 2] << '\n';
 }

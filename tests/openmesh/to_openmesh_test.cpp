@@ -140,9 +140,9 @@ TEST(ToOpenMesh, OnlyAnEmptyMeshIsFilled) {
 TEST(ToOpenMesh, IndicesOutOfRangeAreRefused) {
     auto soup = soup_of<float>(tetrahedron());
     soup.triangles[2][1] = 4;
-    EXPECT_EQ(message_of<MeshF>(soup), "triangle 2: there is no vertex 4");
+    EXPECT_EQ(message_of<MeshF>(soup), "triangle 2: vertex index 4 is out of range (4 vertices)");
     soup.triangles[2][1] = std::numeric_limits<std::uint32_t>::max();
-    EXPECT_EQ(message_of<MeshF>(soup), "triangle 2: there is no vertex 4294967295");
+    EXPECT_EQ(message_of<MeshF>(soup), "triangle 2: vertex index 4294967295 is out of range (4 vertices)");
 }
 
 TEST(ToOpenMesh, CoordinatesAreNotRounded) {

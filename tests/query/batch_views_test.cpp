@@ -21,6 +21,21 @@ TEST(BatchViews, take_what_lies_in_memory_and_refuse_what_would_be_copied_or_rou
     static_assert(std::is_trivially_copyable_v<Segments<float>>);
 }
 
+// A matrix with a point in each row, as libigl has it, was taken for three points that lie far apart.
+TEST(BatchViews, of_matrices_need_three_rows) {
+    for (const Eigen::Index rows : {0, 2, 4, 100}) {
+        const Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows, 3);
+        try {
+            const PointsView<double> points(matrix);
+            ADD_FAILURE() << rows << " rows are " << points.size() << " points";
+        } catch (const std::invalid_argument& error) {
+            EXPECT_EQ(error.what(), "points are the columns of a matrix with 3 rows, not " + std::to_string(rows));
+        }
+    }
+    const Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(3, 100);
+    EXPECT_EQ(PointsView<double>(columns).size(), 100U);
+}
+
 // Floats of a sensor against a mesh in double: widened one by one, nothing is copied.
 TEST(BatchViews, in_double_take_floats) {
     const TriangleSoup<double> soup = lattice_and_shards<double>();

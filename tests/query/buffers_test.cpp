@@ -104,6 +104,18 @@ TEST(Buffers, of_floats_make_a_mesh_in_double_and_not_the_other_way_round) {
     static_assert(!std::is_constructible_v<PointsView<float>, const double*, std::size_t>);
 }
 
+TEST(Buffers, of_signed_indices_are_taken_and_negative_ones_are_out_of_range) {
+    const TriangleSoup<float> soup = moved<float>(bumpy_sphere(8), 1, {0, 0, 0});
+    std::vector<std::int32_t> indices;
+    for (const IndexTriple& triangle : soup.triangles)
+        for (const std::uint32_t index : triangle) indices.push_back(static_cast<std::int32_t>(index));
+    expect_same(CollisionMesh<float>({soup.positions, indices}), CollisionMesh<float>(soup.view()), soup.view());
+    const TrianglesView by_pointer(indices.data(), soup.triangles.size());
+    expect_same(CollisionMesh<float>({soup.positions, by_pointer}), CollisionMesh<float>(soup.view()), soup.view());
+    indices[4] = -1;
+    EXPECT_THROW(CollisionMesh<float>({soup.positions, indices}), MeshError);
+}
+
 // A part of a buffer that serves several meshes: more vertices than 16 bits can name.
 TEST(Buffers, of_16_bit_indices_may_have_more_vertices_than_these_reach) {
     TriangleSoup<float> soup = moved<float>(bumpy_sphere(8), 1, {0, 0, 0});

@@ -32,6 +32,10 @@ TEST(Result, is_the_mesh) {
 TEST(Result, says_what_the_exception_says) {
     TriangleSoup<double> soup = k_triangle;
     soup.triangles[0][1] = 9;
+    const auto regions = Regions<double>::try_make(CollisionMesh<double>(k_triangle.view()), {});
+    EXPECT_EQ(regions.status, Status::bad_argument);
+    EXPECT_EQ(regions.message, "labels: face 0 has none (there are 0)");
+    EXPECT_FALSE(regions.value.has_value());
     const auto wrong_index = CollisionMesh<double>::try_make(soup.view());
     EXPECT_FALSE(static_cast<bool>(wrong_index));
     EXPECT_EQ(wrong_index.status, Status::bad_mesh);

@@ -11,7 +11,8 @@ extern "C" {
 /// No region: what null regions say.
 #define PIERCE_NO_REGION 0xffffffffu
 
-/// The regions of a mesh with labels. Refers to the mesh, which must be destroyed later.
+/// The regions of a mesh with labels, whose faces must not pass through each other (regions.h). Refers to the mesh,
+/// which must be destroyed later.
 typedef struct pierce_regions_f pierce_regions_f;
 typedef struct pierce_regions_d pierce_regions_d;
 
