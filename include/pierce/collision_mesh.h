@@ -19,14 +19,12 @@
 #include <pierce/location.h>
 #include <pierce/mesh_report.h>
 #include <pierce/mesh_view.h>
-#include <pierce/motion.h>
+#include <pierce/motion_sweeps.h>
 #include <pierce/options.h>
 #include <pierce/passage.h>
 #include <pierce/ray.h>
 #include <pierce/result.h>
-#include <pierce/rigid_hit.h>
 #include <pierce/sphere.h>
-#include <pierce/sweep_hit.h>
 #include <pierce/types.h>
 
 namespace pierce {
@@ -66,7 +64,7 @@ struct MeshStatistics {
 /// numbers go; where both are further from the mesh than some 10^9 times its size, boxes are told apart less and less
 /// well, and queries get slower.
 template <class Scalar>
-class PIERCE_EXPORT CollisionMesh {
+class PIERCE_EXPORT CollisionMesh : public MotionSweeps<Scalar> {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
 
   public:
@@ -158,45 +156,9 @@ class PIERCE_EXPORT CollisionMesh {
         return first_hit(step, options);
     }
 
-    /// The same while the mesh moves without a turn: exactly the difference of the two motions, decided on the
-    /// coordinates as they are given, by the rules of `Hit` for the way from `way.from - motion.from` to `way.to -
-    /// motion.to`. `SweepHit` says what is answered, and where the point may be put: at `place`, in the world, at the
-    /// end of the step. If the answer is empty it may be moved to `to`. A chain of steps in which each begins where
-    /// the one before ended, point and mesh, cannot get through a closed mesh without a hit. Where a difference is
-    /// beyond the type's range the query is invalid. `QueryOptions::max_fraction` is a time. (Templates, so that `sweep(step, {})` is the
-    /// one above.)
-    template <std::same_as<Translation<Scalar>> Motion>
-    [[nodiscard]] std::optional<SweepHit<Scalar>> sweep(const Segment<Scalar>& way, const Motion& motion,
-                                                        const QueryOptions& options = {}) const noexcept {
-        return sweep_of_translation(way, motion, options);
-    }
-    /// The same while the mesh turns: within a tolerance of the true motion, and exactly where it comes to chains of
-    /// steps (`RigidMotion`, `RigidHit`). One query for each chord that comes near the mesh's box; `Contact::fraction`
-    /// is a time as well.
-    template <std::same_as<RigidMotion> Motion>
-    [[nodiscard]] std::optional<RigidHit<Scalar>> sweep(const Segment<Scalar>& way, const Motion& motion,
-                                                        const QueryOptions& options = {}) const noexcept {
-        return sweep_of_turn(way, motion, options);
-    }
-    template <std::same_as<Ride<Scalar>> Way, std::same_as<RigidMotion> Motion>
-    [[nodiscard]] std::optional<RigidHit<Scalar>> sweep(const Way& way, const Motion& motion,
-                                                        const QueryOptions& options = {}) const noexcept {
-        return sweep_of_turn(way, motion, options);
-    }
-    /// Many of them: answer i is that of the single query for number i, to the last bit, whatever the executor. Returns
-    /// the number of hits. Throws std::invalid_argument where lengths differ; nothing is written then.
-    template <std::same_as<Translation<Scalar>> Motion>
-    std::size_t sweeps(const Segments<Scalar>& ways, const Motion& motion,
-                       std::span<std::optional<SweepHit<Scalar>>> out, const QueryOptions& options = {},
-                       const Executor& executor = {}) const {
-        return sweeps_of_translation(ways, motion, out, options, executor);
-    }
-    template <std::same_as<RigidMotion> Motion>
-    std::size_t sweeps(const Segments<Scalar>& ways, const Motion& motion,
-                       std::span<std::optional<RigidHit<Scalar>>> out, const QueryOptions& options = {},
-                       const Executor& executor = {}) const {
-        return sweeps_of_turn(ways, motion, out, options, executor);
-    }
+    /// The same for a mesh that moves or turns meanwhile, single and in batches: `MotionSweeps` has them.
+    using MotionSweeps<Scalar>::sweep;
+    using MotionSweeps<Scalar>::sweeps;
 
     /// Many queries in one call: answer i is what the single query for number i gives, to the last bit, whatever the
     /// executor and however the queries are cut into calls. With an executor they are answered in parallel, in parts of
@@ -349,19 +311,6 @@ class PIERCE_EXPORT CollisionMesh {
                            const Executor& executor) const;
     std::size_t all_hits_of_rays(const Rays<Scalar>& rays, std::span<std::size_t> offsets, std::span<Hit<Scalar>> hits,
                                  const QueryOptions& options, const Executor& executor) const;
-
-    std::optional<SweepHit<Scalar>> sweep_of_translation(const Segment<Scalar>& way, const Translation<Scalar>& motion,
-                                                         const QueryOptions& options) const noexcept;
-    std::size_t sweeps_of_translation(const Segments<Scalar>& ways, const Translation<Scalar>& motion,
-                                      std::span<std::optional<SweepHit<Scalar>>> out, const QueryOptions& options,
-                                      const Executor& executor) const;
-    std::optional<RigidHit<Scalar>> sweep_of_turn(const Segment<Scalar>& way, const RigidMotion& motion,
-                                                  const QueryOptions& options) const noexcept;
-    std::optional<RigidHit<Scalar>> sweep_of_turn(const Ride<Scalar>& way, const RigidMotion& motion,
-                                                  const QueryOptions& options) const noexcept;
-    std::size_t sweeps_of_turn(const Segments<Scalar>& ways, const RigidMotion& motion,
-                               std::span<std::optional<RigidHit<Scalar>>> out, const QueryOptions& options,
-                               const Executor& executor) const;
 
     friend class Regions<Scalar>;
     friend struct detail::Inside;  // for rooms that stand on the queries (lib/query/inside.h)

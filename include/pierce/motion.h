@@ -11,7 +11,7 @@
 namespace pierce {
 
 template <class Scalar>
-class CollisionMesh;
+class MotionSweeps;
 
 namespace detail {
 struct Turn;
@@ -102,7 +102,7 @@ class PIERCE_EXPORT RigidMotion {
 
   private:
     template <class Scalar>
-    friend class CollisionMesh;
+    friend class MotionSweeps;
 
     Pose<double> end_;
     std::shared_ptr<const detail::Turn> turn_;  ///< null where it was moved from

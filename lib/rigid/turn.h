@@ -1,8 +1,8 @@
 // The curve that a point goes along in the coordinates of a mesh that turns, its chords, and how far they are off.
 //
-// R0 and R1 are the rotations at the start and at the end, Q = R0^T R1 the turn as the mesh sees it, about a unit axis u
-// by an angle a in [0, pi]; Q(t) by t a. The pivot c goes straight in the world. A world point at a distance d(t) from
-// it, linear in t, is in the mesh at
+// R0 and R1 are the rotations at the start and at the end, Q = R0^T R1 the turn as the mesh sees it, about a unit axis
+// u by an angle a in [0, pi]; Q(t) by t a. The pivot c goes straight in the world. A world point at a distance d(t)
+// from it, linear in t, is in the mesh at
 //
 //     q(t) = c + Q(t)^T e(t),   e(t) = R0^T d(t) = e0 + t (e1 - e0),   e0 = q(0) - c,   e1 = Q (q(1) - c)
 //
@@ -14,10 +14,10 @@
 //
 // Rounding (u here is 2^-53, D = the length of e0 plus that of c, or of e1, whichever is more; first order).
 //   - Images at the ends: placement.h, 2^-46.7 |p - t| for double, 2^-23.2 |p - t| for float, and |p - t| <= D.
-//   - Q: an entry of R0^T R1 is off by 2 * 40 u for R and 3 u for its sums; a component of the quaternion by 2^-45 (four
-//     such entries over at least 2, a square root, a normalisation), the rotation by twice that. Half of a rotation
-//     halves its error and adds 6 u. A product of k of them is off by their sum and 5 u each: at most 2^-44 + 24 * 11 u.
-//     Where the curve ends it is right by construction: e1 is made with Q.
+//   - Q: an entry of R0^T R1 is off by 2 * 40 u for R and 3 u for its sums; a component of the quaternion by 2^-45
+//     (four such entries over at least 2, a square root, a normalisation), the rotation by twice that. Half of a
+//     rotation halves its error and adds 6 u. A product of k of them is off by their sum and 5 u each: at most
+//     2^-44 + 24 * 11 u. Where the curve ends it is right by construction: e1 is made with Q.
 //   - turned_back: two cross products and a sum, 12 u |e|; e and the sum with c: 4 u D more. Rounded to float 2^-24 |q|
 //     in each coordinate, 2^-23.2 |q| together.
 // All of it is below 2^-42.5 D for double and 2^-22 D for float; `rounding` has 2^-42 and 2^-21, and half of the

@@ -1,5 +1,5 @@
-// Whether a point is in a closed mesh: how often a way to a far point passes through its faces, by the signs of volumes,
-// in double where a crude bound tells and in GMP's whole numbers where it does not (gmp_oracle.h).
+// Whether a point is in a closed mesh: how often a way to a far point passes through its faces, by the signs of
+// volumes, in double where a crude bound tells and in GMP's whole numbers where it does not (gmp_oracle.h).
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,6 @@
-// A turning drum full of particles, and a swinging door in a cloud of them: nobody gets through, whatever the tolerance.
-// Judged by whole-number arithmetic on the mesh and the images of the particles (inside_judge.h), after each step.
+// A turning drum full of particles, and a swinging door in a cloud of them: nobody gets through, whatever the
+// tolerance. Judged by whole-number arithmetic on the mesh and the images of the particles (inside_judge.h), after each
+// step; at the door also by the true motion within each step.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 #include <pierce/collision_mesh.h>
 #include <point.h>
 #include <rigid/inside_judge.h>
+#include <rigid/true_turn.h>
 #include <support/meshes.h>
 
 namespace pierce::test {
@@ -27,8 +29,16 @@ TriangleSoup<double> door() {
     return soup;
 }
 
+/// How deep a point is in the door.
+double depth_in_door(const Long3& x) {
+    const Long3 low = x - Long3(0, -0.01L, -1);
+    const Long3 high = Long3(1, 0.01L, 1) - x;
+    return static_cast<double>(std::min(low.minCoeff(), high.minCoeff()));
+}
+
 struct Tally {
     int leaks = 0;
+    int deep = 0;  ///< ways without a hit that came deeper than the tolerance into the door
     int contacts = 0;
     int rides = 0;    ///< places in the world that were not verified
     int unknown = 0;  ///< on the surface, as a rule
@@ -43,8 +53,9 @@ struct Particle {
     int kind;  ///< rests, bounces, goes with what it meets
 };
 
+/// Returns whether it went where it wanted to.
 template <class Scalar>
-void move(Particle<Scalar>& p, const CollisionMesh<Scalar>& mesh, const RigidMotion& motion, Tally& tally) {
+bool move(Particle<Scalar>& p, const CollisionMesh<Scalar>& mesh, const RigidMotion& motion, Tally& tally) {
     const QueryOptions options{.sides = p.inside ? Sides::back : Sides::front};
     p.velocity[1] -= 0.004;
     for (int attempt = 0;; ++attempt) {
@@ -54,7 +65,7 @@ void move(Particle<Scalar>& p, const CollisionMesh<Scalar>& mesh, const RigidMot
         if (!hit) {
             p.at = to;
             p.local.reset();
-            return;
+            return true;
         }
         ++tally.contacts;
         const Vec3<double> normal = hit->facing().template cast<double>();
@@ -69,13 +80,13 @@ void move(Particle<Scalar>& p, const CollisionMesh<Scalar>& mesh, const RigidMot
         p.at = hit->place;
         p.local.reset();
         if (!hit->place_verified) p.local = hit->local.vec(), ++tally.rides;
-        return;
+        return false;
     }
 }
 
 template <class Scalar, class ScrewOf>
 Tally play(const TriangleSoup<double>& shape, int count, int steps, double offset, double tolerance,
-           double outside_left_out, std::uint64_t seed, ScrewOf&& screw_of) {
+           double outside_left_out, bool is_door, std::uint64_t seed, ScrewOf&& screw_of) {
     const TriangleSoup<Scalar> soup = moved<Scalar>(shape, 1, {0, 0, 0});
     const CollisionMesh<Scalar> mesh(soup.view());
     EXPECT_TRUE(mesh.mesh_report().closed());
@@ -95,9 +106,20 @@ Tally play(const TriangleSoup<double>& shape, int count, int steps, double offse
     }
     Tally tally;
     for (int s = 0; s < steps; ++s) {
-        const RigidMotion motion(pose, screw_of(s, pose), tolerance);
+        const Screw screw = screw_of(s, pose);
+        const RigidMotion motion(pose, screw, tolerance);
+        const TrueTurn truth(pose, screw);
         for (Particle<Scalar>& p : particles) {
-            move(p, mesh, motion, tally);
+            const bool rode = p.local.has_value();
+            const Long3 from = p.at.template cast<long double>();
+            if (move(p, mesh, motion, tally) && is_door && !rode)
+                for (int part = 0; part <= 32; ++part) {
+                    const long double time = part / 32.0L;
+                    const Long3 at = from + time * (p.at.template cast<long double>() - from);
+                    if (depth_in_door(truth.in_mesh(at, time)) <= tolerance) continue;
+                    ++tally.deep;
+                    break;
+                }
             const Vec3<Scalar> local = p.local ? *p.local : motion.end_in_mesh(p.at);
             const double far = local.template cast<double>().cwiseAbs().maxCoeff();
             const Where where = far > 7 ? Where::outside : judge.where(local);
@@ -124,11 +146,12 @@ void expect_none(const TriangleSoup<double>& shape, int count, int steps, double
     std::uint64_t seed = 0;
     for (const double offset : {0.0, 1000.0})
         for (const double tolerance : {1e-2, 1e-4}) {
-            const Tally tally =
-                play<Scalar>(shape, count, steps, offset, tolerance, outside_left_out, ++seed, screw_of);
+            const Tally tally = play<Scalar>(shape, count, steps, offset, tolerance, outside_left_out,
+                                             outside_left_out == 0, ++seed, screw_of);
             std::cout << "offset " << offset << ", tolerance " << tolerance << ": " << tally.contacts << " contacts, "
                       << tally.rides << " ride, " << tally.unknown << " on the surface, " << tally.leaks << " leaks\n";
             EXPECT_EQ(tally.leaks, 0) << "case " << seed;
+            EXPECT_EQ(tally.deep, 0) << "case " << seed;
             EXPECT_GT(tally.contacts, count * steps / 20) << "case " << seed;
             EXPECT_LE(tally.unknown, count * steps / 100) << "case " << seed;
         }
