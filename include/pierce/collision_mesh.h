@@ -19,6 +19,7 @@
 #include <pierce/location.h>
 #include <pierce/mesh_report.h>
 #include <pierce/mesh_view.h>
+#include <pierce/motion_sweeps.h>
 #include <pierce/options.h>
 #include <pierce/passage.h>
 #include <pierce/ray.h>
@@ -63,7 +64,7 @@ struct MeshStatistics {
 /// numbers go. Where both are further from the mesh than some 10^10 times its size, the values of a hit take exact
 /// arithmetic in double, some 7 us a hit; `any_hit` and misses cost what they cost from near.
 template <class Scalar>
-class PIERCE_EXPORT CollisionMesh {
+class PIERCE_EXPORT CollisionMesh : public MotionSweeps<Scalar> {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
 
   public:
@@ -154,6 +155,10 @@ class PIERCE_EXPORT CollisionMesh {
                                                    const QueryOptions& options = {}) const noexcept {
         return first_hit(step, options);
     }
+
+    /// The same for a mesh that moves or turns meanwhile, single and in batches: `MotionSweeps` has them.
+    using MotionSweeps<Scalar>::sweep;
+    using MotionSweeps<Scalar>::sweeps;
 
     /// Many queries in one call: answer i is what the single query for number i gives, to the last bit, whatever the
     /// executor and however the queries are cut into calls. With an executor they are answered in parallel, in parts of

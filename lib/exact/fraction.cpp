@@ -2,24 +2,10 @@
 #include <exact/fraction.h>
 
 #include <exact/ratio.h>
+#include <exact/shares.h>
 #include <exact/volumes.h>
 
 namespace pierce::detail {
-
-// For a triangle that is hit or touched, from_side = F and to_side = T have opposite signs, or one of them is 0 and the
-// other is not. So with A = |F| and B = |T| its fraction is A / (A + B), whichever side was hit, and A + B > 0.
-
-namespace {
-
-// A1 / (A1 + B1) < A2 / (A2 + B2)  <=>  A1 B2 < B1 A2, all of them >= 0, both sums > 0. A and B of one path are on one
-// lattice, so both sides have the same unit, whatever the lattices are.
-template <class One, class Other>
-int compare_shares(const One& one, const Other& other) {
-    return compare_products(magnitude(one.from_side()), magnitude(other.to_side()), magnitude(one.to_side()),
-                            magnitude(other.from_side()));
-}
-
-}  // namespace
 
 int compare_fractions(const Path& path, const Corners& first, const Corners& second) {
     Lattice lattice = lattice_of(path, first);
@@ -53,28 +39,6 @@ bool same_place(const Corners& first, const Decision& one, const Corners& second
     return (p == q && p_next == q_next) || (p == q_next && p_next == q);
 }
 
-namespace {
-
-// The order of a and limit sum, for 0 < a <= sum and 0 < limit < 1.
-template <int N>
-int compare_share(const Integer<N>& a, const Integer<N>& sum, double limit) {
-    const Bits bits(limit);
-    // a 2^shift against mantissa sum, where limit = mantissa / 2^shift. With mantissa < 2^53, a larger shift puts the
-    // right side below 1.
-    const int shift = -bits.exponent;
-    if (shift > bit_length(sum) + 53) return 1;
-    Integer<1> mantissa;
-    mantissa.limb[0] = bits.mantissa;
-    const Integer<2 * N + 2> left = widen<2 * N + 2>(a) << shift;
-    return compare(left, widen<2 * N + 2>(sum * mantissa));
-}
-
-int compare_share(const Magnitude& a, const Magnitude& sum, double limit) {
-    return compare_products(a, Magnitude(1), sum, Magnitude(limit));
-}
-
-}  // namespace
-
 bool in_one_axis_plane(const Corners& first, const Corners& second) {
     for (std::size_t k = 0; k < 3; ++k) {
         const double x = first[0][k];
@@ -85,14 +49,7 @@ bool in_one_axis_plane(const Corners& first, const Corners& second) {
 }
 
 int compare_fraction(const Path& path, const Corners& corners, double limit) {
-    return with_volumes(path, corners, [limit](const auto& volumes) {
-        const auto a = magnitude(volumes.from_side());
-        if (a.zero() || limit == 0) return a.zero() ? (limit > 0 ? -1 : 0) : 1;
-        const auto b = magnitude(volumes.to_side());
-        if (limit >= 1) return b.zero() && limit == 1 ? 0 : -1;
-        // The sum of integers of 3 N limbs is below 2^(192 N - 4), see with_limbs.
-        return compare_share(a, a + b, limit);
-    });
+    return with_volumes(path, corners, [limit](const auto& volumes) { return compare_share(volumes, limit); });
 }
 
 bool fraction_at_most(const Path& path, const Corners& corners, double limit) {

@@ -91,8 +91,9 @@ template <int N, int M>
 ///
 /// With coordinates below 2^b, b <= 64 N - 4, a difference is below 2^(b+1), a 2x2 minor of differences below 2^(2b+3),
 /// a 3x3 determinant of differences (three products of a minor and a difference) below 2^(3b+6), that of a ray's end,
-/// of which differences are below 2^(b+2), below 2^(3b+7): all fit N, 2N and 3N limbs with their sign bit, and sums of
-/// two. 1 limb serves float meshes whose coordinates span few exponents, 2 most others. Floats span up to 277 bits,
+/// of which differences are below 2^(b+2), below 2^(3b+7), and where both ends are differences of two (difference.h)
+/// below 2^(3b+9): all fit N, 2N and 3N limbs with their sign bit, and sums of two. 1 limb serves float meshes whose
+/// coordinates span few exponents, 2 most others. Floats span up to 277 bits,
 /// doubles 2098: there accumulator.h is faster than 5 limbs (800 against 1,300 ns a decision).
 template <class F, class G>
 decltype(auto) with_limbs(int bits, F&& f, G&& wide) {

@@ -17,8 +17,14 @@ template <int N>
 class Volumes {
   public:
     Volumes(const Path& path, const Corners& corners, const Lattice& lattice)
-        : from_(on_lattice<N>(path.from, lattice)),
-          end_(path.ray ? from_ + on_lattice<N>(path.to, lattice) : on_lattice<N>(path.to, lattice)),
+        : Volumes(on_lattice<N>(path.from, lattice),
+                  path.ray ? on_lattice<N>(path.from, lattice) + on_lattice<N>(path.to, lattice)
+                           : on_lattice<N>(path.to, lattice),
+                  corners, lattice) {}
+    /// From one point to another, each a coordinate or the sum or difference of two.
+    Volumes(const Vector<N>& from, const Vector<N>& end, const Corners& corners, const Lattice& lattice)
+        : from_(from),
+          end_(end),
           way_(end_ - from_),
           corner_{on_lattice<N>(corners[0], lattice), on_lattice<N>(corners[1], lattice),
                   on_lattice<N>(corners[2], lattice)},
@@ -61,6 +67,33 @@ class Volumes {
     Vector<2 * N> normal_;
 };
 
+/// A row (x, y, z, 1), or (x, y, z, 0) for a direction, of the determinant that a volume is.
+struct WideRow {
+    const OddPoint* at;
+    bool direction = false;
+};
+
+/// Adds (b - a) x (c - a) . (x - a), which is minus the determinant of the rows (p, 1), p = a, b, c, x. It is linear in
+/// each row, so a point that is a sum is two rows, of which one is a direction.
+///
+/// By Laplace along two pairs of columns, x y and z w: for each pair of rows i < j with the others k < l,
+/// (-1)^(i+j+1) (x_i y_j - x_j y_i) (z_k w_l - z_l w_k).
+inline void add_volume(const WideRow& a, const WideRow& b, const WideRow& c, const WideRow& x, Accumulator& sum) {
+    const auto rows = [&sum](bool minus, const WideRow& i, const WideRow& j, const WideRow& k, const WideRow& l) {
+        const Odd zero(0);
+        const Odd& first = l.direction ? zero : (*k.at)[2];
+        const Odd& second = k.direction ? zero : (*l.at)[2];
+        sum.add(minus, (*i.at)[0], (*j.at)[1], first, second);
+        sum.add(!minus, (*j.at)[0], (*i.at)[1], first, second);
+    };
+    rows(true, a, b, c, x);
+    rows(false, a, c, b, x);
+    rows(true, a, x, b, c);
+    rows(true, b, c, a, x);
+    rows(false, b, x, a, c);
+    rows(true, c, x, a, b);
+}
+
 /// The same for any finite doubles.
 class WideVolumes {
   public:
@@ -73,18 +106,18 @@ class WideVolumes {
 
     [[nodiscard]] Accumulator from_side() const {
         Accumulator sum(lattice_, 3);
-        add_volume(corner_[0], corner_[1], corner_[2], from_, false, sum);
+        add_volume({&corner_[0]}, {&corner_[1]}, {&corner_[2]}, {&from_}, sum);
         return sum;
     }
     [[nodiscard]] Accumulator to_side() const {
         Accumulator sum(lattice_, 3);
-        if (ray_) add_volume(corner_[0], corner_[1], corner_[2], from_, false, sum);
-        add_volume(corner_[0], corner_[1], corner_[2], to_, ray_, sum);
+        if (ray_) add_volume({&corner_[0]}, {&corner_[1]}, {&corner_[2]}, {&from_}, sum);
+        add_volume({&corner_[0]}, {&corner_[1]}, {&corner_[2]}, {&to_, ray_}, sum);
         return sum;
     }
     [[nodiscard]] Accumulator weight(int k) const {
         Accumulator sum(lattice_, 3);
-        add_volume(from_, corner_[(k + 2) % 3], corner_[(k + 1) % 3], to_, ray_, sum);
+        add_volume({&from_}, {&corner_[(k + 2) % 3]}, {&corner_[(k + 1) % 3]}, {&to_, ray_}, sum);
         return sum;
     }
 
@@ -130,25 +163,6 @@ class WideVolumes {
     }
 
   private:
-    // Adds (b - a) x (c - a) . (x - a), which is minus the determinant of the rows (p, 1), p = a, b, c, x; for a
-    // direction x, (b - a) x (c - a) . x, its row is (x, 0). By Laplace along two pairs of columns, x y and z w: for
-    // each pair of rows i < j with the others k < l, (-1)^(i+j+1) (x_i y_j - x_j y_i) (z_k w_l - z_l w_k). x is always
-    // the last row of its pair.
-    static void add_volume(const OddPoint& a, const OddPoint& b, const OddPoint& c, const OddPoint& x, bool direction,
-                           Accumulator& sum) {
-        const auto rows = [&sum](bool minus, const OddPoint& i, const OddPoint& j, const Odd& k, const Odd& l) {
-            sum.add(minus, i[0], j[1], k, l);
-            sum.add(!minus, j[0], i[1], k, l);
-        };
-        const Odd zero(0);
-        rows(true, a, b, direction ? zero : c[2], x[2]);
-        rows(false, a, c, direction ? zero : b[2], x[2]);
-        rows(true, a, x, b[2], c[2]);
-        rows(true, b, c, direction ? zero : a[2], x[2]);
-        rows(false, b, x, a[2], c[2]);
-        rows(true, c, x, a[2], b[2]);
-    }
-
     Lattice lattice_;
     OddPoint from_;
     OddPoint to_;  ///< of a ray, the way

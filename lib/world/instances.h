@@ -7,7 +7,7 @@
 #include <pierce/world_hit.h>
 #include <query/ways.h>
 #include <world/box_walk.h>
-#include <world/placement.h>
+#include <rigid/placement.h>
 
 namespace pierce::detail {
 

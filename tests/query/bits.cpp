@@ -8,6 +8,7 @@
 #include <motion/moving.h>
 #include <pierce/collision_mesh.h>
 #include <pierce/deforming_mesh.h>
+#include <pierce/motion.h>
 #include <pierce/regions.h>
 #include <pierce/response.h>
 #include <pierce/world.h>
@@ -160,6 +161,42 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
     }
 }
 
+// The mesh moved straight, and turned by a small quaternion, while points go by.
+template <class Scalar>
+void add_motions(Hash& hash, const TriangleSoup<double>& unit, double offset, int count = 1'000) {
+    using Whole = std::conditional_t<sizeof(Scalar) == 4, std::uint32_t, std::uint64_t>;
+    const TriangleSoup<Scalar> soup = moved<Scalar>(unit, 1, {0, 0, 0});
+    const CollisionMesh<Scalar> mesh(soup.view());
+    const auto add = [&hash](const Coordinates<Scalar>& x) {
+        for (int k = 0; k < 3; ++k) hash.add(std::bit_cast<Whole>(x[k]));
+    };
+    Random random(29);
+    Pose<double> before;
+    Pose<double> after;
+    before.translation = after.translation = Vec3<double>(offset, -offset, offset);
+    after.rotation << 12, -3, 4, 4, 12, -3, -3, 4, 12;  // a rotation but for its last bits, once it is divided
+    after.rotation /= 13;
+    const RigidMotion motion(before, after, 1e-3, Vec3<double>(0.5, 0.25, 0));
+    for (int i = 0; i < count; ++i) {
+        const Vec3<double> from = 3 * random.in_cube() + before.translation;
+        const Vec3<double> to = 3 * random.in_cube() + before.translation;
+        const Vec3<double> start = random.in_cube() + before.translation;
+        const Vec3<double> end = random.in_cube() + before.translation;
+        const Segment<Scalar> way{from.template cast<Scalar>(), to.template cast<Scalar>()};
+        const Translation<Scalar> shift{start.template cast<Scalar>(), end.template cast<Scalar>()};
+        if (const auto hit = mesh.sweep(way, shift, {.sides = Sides::both})) {
+            hash.add(hit->triangle);
+            hash.add(std::bit_cast<Whole>(hit->time));
+            for (const auto& x : {hit->place, hit->position, hit->normal, hit->barycentric}) add(x);
+        }
+        if (const auto hit = mesh.sweep(way, motion, {.sides = Sides::both})) {
+            hash.add(hit->triangle);
+            hash.add(std::bit_cast<Whole>(hit->time));
+            for (const auto& x : {hit->place, hit->local, hit->position, hit->normal, hit->surface_motion}) add(x);
+        }
+    }
+}
+
 // The mesh many times, turned by small quaternions (no sines) and as it is.
 template <class Scalar>
 void add_worlds(Hash& hash, const TriangleSoup<double>& unit, double offset, int count = 800) {
@@ -260,6 +297,8 @@ int main() {
         add_worlds<double>(hash, polycube(2, 0.6, 1, 3), offset);
         add_worlds<float>(hash, terrain(8, 0.3, 4), offset);
         add_worlds<double>(hash, terrain(8, 0.3, 4), offset);
+        add_motions<float>(hash, polycube(3, 0.5, 1, 5), offset);
+        add_motions<double>(hash, terrain(8, 0.3, 4), offset);
     }
     for (const double scale : {1e-100, 1.0, 1e80})
         for (const int digits : {1, 3, 30}) add_impacts(hash, scale, digits);

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <support/random.h>
 #include <world/naive_world.h>
-#include <world/placement.h>
+#include <rigid/placement.h>
 
 namespace pierce::test {
 namespace {

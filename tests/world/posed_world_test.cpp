@@ -6,7 +6,7 @@
 #include <support/expect_hit.h>
 #include <support/meshes.h>
 #include <world/naive_world.h>
-#include <world/placement.h>
+#include <rigid/placement.h>
 
 namespace pierce::test {
 namespace {

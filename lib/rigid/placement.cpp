@@ -1,5 +1,5 @@
 // Poses checked and made exact, and the boxes of what they put into the world.
-#include <world/placement.h>
+#include <rigid/placement.h>
 
 #include <algorithm>
 #include <cmath>
