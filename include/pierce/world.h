@@ -15,7 +15,9 @@
 #include <pierce/export.h>
 #include <pierce/pose.h>
 #include <pierce/ray.h>
+#include <pierce/result.h>
 #include <pierce/types.h>
+#include <pierce/world_answers.h>
 #include <pierce/world_hit.h>
 
 namespace pierce {
@@ -68,6 +70,11 @@ struct WorldStatistics {
 /// A ray is `origin` and `direction`: the image of the latter is rotated only, and rounded. Its parameters are compared
 /// as they are.
 ///
+/// A ball has the same radius in every mesh. What is decided, exactly, is the way of its center's image: so a ball keeps
+/// its radius from the mesh itself, and from where that is in the world within the above. A radius is not rounded, and
+/// what is near is looked for in boxes that allow for all of it; so nothing is missed, and what is promised of a ball's
+/// way (`SphereHit`) holds in the coordinates of each mesh, and for chains of steps.
+///
 /// An image that is not a finite number (p and translation at the far ends of the number range) hits nothing of that
 /// mesh.
 ///
@@ -109,6 +116,14 @@ class PIERCE_EXPORT World {
     void set_layers(MeshId id, std::uint32_t layers);
     void set_face_layers(MeshId id, std::shared_ptr<const std::vector<std::uint32_t>> face_layers);
 
+    /// The same without exceptions. Where nothing was done `value` is `MeshId{}`, and `message` says why.
+    [[nodiscard]] Result<MeshId> try_add(Mesh mesh, const InstanceOptions<Scalar>& options = {}) noexcept;
+    [[nodiscard]] Result<MeshId> try_replace(MeshId id, Mesh mesh) noexcept;
+    [[nodiscard]] Result<MeshId> try_set_pose(MeshId id, const Pose<Scalar>& pose) noexcept;
+    [[nodiscard]] Result<MeshId> try_set_layers(MeshId id, std::uint32_t layers) noexcept;
+    [[nodiscard]] Result<MeshId> try_set_face_layers(
+        MeshId id, std::shared_ptr<const std::vector<std::uint32_t>> face_layers) noexcept;
+
     [[nodiscard]] bool holds(MeshId id) const noexcept;
     [[nodiscard]] std::size_t size() const noexcept;
     /// Null where the id is stale.
@@ -148,10 +163,50 @@ class PIERCE_EXPORT World {
         return crossings_of_ray(ray, options);
     }
 
+    /// As `first_hit` of a segment: `CollisionMesh::sweep` says what a particle does with the answer.
+    [[nodiscard]] std::optional<WorldHit<Scalar>> sweep(const Segment<Scalar>& step,
+                                                        const WorldOptions& options = {}) const noexcept {
+        return first_hit(step, options);
+    }
+
+    /// As `CollisionMesh::passages`, of all meshes, in order of (fraction, mesh). Faces are taken together that are of
+    /// one mesh: where meshes meet, each has a passage of its own. So the passages of each mesh are its own ones, and
+    /// their `crossings` add up to those of the world.
+    std::size_t passages(const Segment<Scalar>& segment, std::span<WorldPassage<Scalar>> out,
+                         const WorldPassageOptions& options = {}, std::span<FaceTouch> faces = {}) const noexcept;
+
     /// The sum of the winding numbers of the point's images.
     [[nodiscard]] int winding_number(const Vec3<Scalar>& point, const WorldCountOptions& options = {}) const noexcept;
     /// Whether the winding number is not 0.
     [[nodiscard]] bool contains(const Vec3<Scalar>& point, const WorldCountOptions& options = {}) const noexcept;
+
+    /// The meshes whose winding number at the point is not 0, by their index. Returns how many there are; the first ones
+    /// go to `out`.
+    std::size_t containing(const Vec3<Scalar>& point, std::span<MeshId> out,
+                           const WorldCountOptions& options = {}) const noexcept;
+    /// As `CollisionMesh::locate`: the winding number is that of the world, and the point is on the surface where its
+    /// image in some mesh is on that of the mesh, exactly. `faces` are in order of (mesh, face, triangle). Of one mesh
+    /// the same is `mesh(id)->locate(to_mesh(id, point))`.
+    [[nodiscard]] Location locate(const Vec3<Scalar>& point, std::span<WorldTouch> faces = {},
+                                  const WorldCountOptions& options = {}) const noexcept;
+
+    /// As in `CollisionMesh`, with the images of `center` and of the step's ends, see above. `center` of a hit is
+    /// verified in all meshes: sweeping the ball there has no hit. Between meshes the earlier time is first, as rounded
+    /// down (`SphereHit::fraction` before it is a Scalar), then the lower `MeshId::index`; a contact that is at the
+    /// start comes first, the deepest of them before others. Where no two of the mesh's and the query's lengths are
+    /// 2^300 times as large as one another, answers do not depend on the order of changes.
+    [[nodiscard]] std::optional<WorldSphereHit<Scalar>> sweep_sphere(const Segment<Scalar>& step, Scalar radius,
+                                                                     const WorldOptions& options = {}) const noexcept;
+    /// Contacts of each mesh by itself: an edge that two meshes share is one of each.
+    std::size_t sphere_hits(const Segment<Scalar>& step, Scalar radius, std::span<WorldSphereHit<Scalar>> out,
+                            const WorldOptions& options = {}) const noexcept;
+    std::size_t sphere_contacts(const Vec3<Scalar>& center, Scalar radius, std::span<WorldSphereHit<Scalar>> out,
+                                const WorldOptions& options = {}) const noexcept;
+
+    /// Why each face near the segment is its first hit or is not, in order of (mesh, triangle): of each mesh whose
+    /// layers count what `CollisionMesh::explain` says of the image. For debugging: it looks at all faces.
+    [[nodiscard]] std::vector<WorldFaceVerdict> explain(const Segment<Scalar>& segment,
+                                                        const WorldOptions& options = {}) const;
 
     /// Batches: answer i is what the single call for number i gives, to the last bit, whatever the executor. Lengths
     /// that differ throw std::invalid_argument as in `CollisionMesh`. Queries of a part go one after the other. Return
@@ -162,6 +217,23 @@ class PIERCE_EXPORT World {
                          const WorldOptions& options = {}, const Executor& executor = {}) const;
     void crossings(const Segments<Scalar>& segments, std::span<int> out, const WorldCountOptions& options = {},
                    const Executor& executor = {}) const;
+    std::size_t sweeps(const Segments<Scalar>& steps, const WorldHitsOut<Scalar>& out, const WorldOptions& options = {},
+                       const Executor& executor = {}) const;
+    /// Compressed rows, as `CollisionMesh::all_hits`.
+    std::size_t all_hits(const Segments<Scalar>& segments, std::span<std::size_t> offsets,
+                         std::span<WorldHit<Scalar>> hits, const WorldOptions& options = {},
+                         const Executor& executor = {}) const;
+    std::size_t sweep_spheres(const Segments<Scalar>& steps, Scalar radius,
+                              std::span<std::optional<WorldSphereHit<Scalar>>> out, const WorldOptions& options = {},
+                              const Executor& executor = {}) const;
+    std::size_t sweep_spheres(const Segments<Scalar>& steps, std::span<const Scalar> radii,
+                              std::span<std::optional<WorldSphereHit<Scalar>>> out, const WorldOptions& options = {},
+                              const Executor& executor = {}) const;
+    template <detail::RaysOf<Scalar> Batch>
+    std::size_t all_hits(const Batch& rays, std::span<std::size_t> offsets, std::span<WorldHit<Scalar>> hits,
+                         const WorldOptions& options = {}, const Executor& executor = {}) const {
+        return all_hits_of_rays(rays, offsets, hits, options, executor);
+    }
     template <detail::RaysOf<Scalar> Batch>
     std::size_t first_hits(const Batch& rays, const WorldHitsOut<Scalar>& out, const WorldOptions& options = {},
                            const Executor& executor = {}) const {
@@ -182,6 +254,10 @@ class PIERCE_EXPORT World {
     std::size_t contains_points(const PointsView<Scalar>& points, std::span<std::uint8_t> out,
                                 const WorldCountOptions& options = {}, const Executor& executor = {}) const;
 
+    /// Returns the number of points that are on the surface.
+    std::size_t locate_points(const PointsView<Scalar>& points, std::span<Location> out,
+                              const WorldCountOptions& options = {}, const Executor& executor = {}) const;
+
     [[nodiscard]] WorldStatistics statistics() const noexcept;
 
   private:
@@ -197,6 +273,10 @@ class PIERCE_EXPORT World {
                                  const Executor& executor) const;
     void crossings_of_rays(const Rays<Scalar>& rays, std::span<int> out, const WorldCountOptions& options,
                            const Executor& executor) const;
+
+    std::size_t all_hits_of_rays(const Rays<Scalar>& rays, std::span<std::size_t> offsets,
+                                 std::span<WorldHit<Scalar>> hits, const WorldOptions& options,
+                                 const Executor& executor) const;
 
     struct PIERCE_HIDDEN Impl;
     std::unique_ptr<Impl> impl_;

@@ -21,8 +21,9 @@ inline constexpr double k_box_slack = 0x1p-49;
 
 class BoxProbe {
   public:
-    /// `noise`: what images may be off for the ends' sake, in the largest |coordinate| of an end.
-    BoxProbe(const Path& path, double noise) {
+    /// `noise`: what images may be off for the ends' sake, in the largest |coordinate| of an end. `radius`: of a ball
+    /// whose center goes the way.
+    BoxProbe(const Path& path, double noise, double radius = 0) {
         double start = 0;
         double end = 0;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -34,8 +35,8 @@ class BoxProbe {
             end = std::max(end, std::abs(path.to[k]));
         }
         const double reach = path.ray ? start + end : std::max(start, end);
-        noise_ = (noise + k_box_slack) * reach + std::numeric_limits<double>::min();
-        all_ = !(reach < 0x1p1000);
+        noise_ = (noise + k_box_slack) * reach + radius * (1 + k_box_slack) + std::numeric_limits<double>::min();
+        all_ = !(reach + radius < 0x1p1000);
     }
 
     static constexpr double k_missed = std::numeric_limits<double>::infinity();
