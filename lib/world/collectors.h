@@ -6,6 +6,26 @@
 
 namespace pierce::detail {
 
+/// The triangles that the wide kernels left of a way in all meshes, those of a mesh one after the other; if `complete`,
+/// all that could stop a point on a way to near the hit (near.h).
+struct WorldShortlist {
+    struct Entry {
+        std::uint32_t index;  ///< of the instance
+        TriangleRef triangle;
+    };
+
+    void add(std::uint32_t index, TriangleRef triangle) {
+        if (count == entries.size())
+            complete = false;
+        else
+            entries[count++] = {index, triangle};
+    }
+
+    std::array<Entry, 64> entries;
+    unsigned count = 0;
+    bool complete = true;
+};
+
 /// Keeps the first hit of an instance, as long as it is not beyond what was found in others, but for those that
 /// `passed(triangle)` says are known.
 template <class Scalar, class Passed>
@@ -17,6 +37,7 @@ class FirstHere : public First<Scalar> {
 
     [[nodiscard]] double limit() const { return std::min(First<Scalar>::limit(), limit_); }
     [[nodiscard]] bool wants(TriangleRef triangle) const { return filter_.counts(triangle); }
+    void seen(TriangleRef) {}
     void add() {
         if (!passed_(this->room().triangle)) First<Scalar>::add();
     }

@@ -5,6 +5,7 @@
 #include <query/traverse.h>
 #include <world/answer.h>
 #include <world/first_search.h>
+#include <world/near.h>
 #include <world/way_path.h>
 
 namespace pierce::detail {
@@ -17,17 +18,20 @@ std::optional<WorldHit<Scalar>> first_hit(const WorldScene<Scalar>& world, const
     if (!set_path(world, way, options.max_fraction, path)) return hit;
     const auto known = [](TriangleRef) { return false; };
     FirstSearch<Scalar, decltype(known)> search;
-    each_image(world, path, options.mask, std::min(1.0, path.most), counters,
+    const double near = near_of(world, path);
+    WorldShortlist list;
+    each_image(world, path, 2 * near, options.mask, std::min(1.0, path.most), counters,
                [&](std::uint32_t index, const Instance<Scalar>& instance, const Path& image, double limit) {
                    auto& here = search.next(world, index, image, options, limit, known, counters);
-                   traverse<Certified>(*instance.scene, here.local, here.options, counters, here.collector);
+                   traverse_near(*instance.scene, here.local, near, here.options, counters, here.collector, index,
+                                 list);
                    return search.take(world, path, limit, counters);
                });
     if (!search.found()) return hit;
     const auto& first = search.first();
     const auto none = [](std::uint32_t, TriangleRef) { return false; };
-    answer(world, path, {first.index, first.local, first.collector.best(), &first.collector.list()}, none, options,
-           counters, hit.emplace());
+    answer(world, path, {first.index, first.local, first.collector.best(), &list}, none, options, counters,
+           hit.emplace());
     return hit;
 }
 

@@ -46,7 +46,7 @@ struct OwnHit {
     std::uint32_t index;  ///< of the instance
     const Path& local;    ///< the path there
     const Candidate& candidate;
-    const Shortlist* list;  ///< of that path; null: none was kept
+    const WorldShortlist* list;  ///< of the world's path; null: none was kept
 };
 
 /// `passed(index, triangle)` says which triangles are hit strictly before the hit, and so don't count.
@@ -76,14 +76,13 @@ class WorldWays {
         Point there;
         if (!leads_to(point, there)) return false;
         bool found = false;
-        each_image(world_, Path{from_, there}, options_.mask, 1, counters_,
-                   [&](std::uint32_t index, const Instance<Scalar>& instance, const Path& way, double) {
-                       const auto passed = [&](TriangleRef triangle) { return is_known(index, triangle); };
-                       AnyHere any(instance, options_.mask, passed);
-                       test(index, way, options_in(options_, world_.id_of(index)), near, any);
-                       found = any.found();
-                       return found ? -1.0 : 1.0;
-                   });
+        each_way(Path{from_, there}, near, [&](std::uint32_t index, const Path& way, List few, double) {
+            const auto passed = [&](TriangleRef triangle) { return is_known(index, triangle); };
+            AnyHere any(world_.instances[index], options_.mask, passed);
+            test(index, way, options_in(options_, world_.id_of(index)), few, any);
+            found = any.found();
+            return found ? -1.0 : 1.0;
+        });
         if (!found) chosen_ = there;
         return !found;
     }
@@ -98,13 +97,12 @@ class WorldWays {
         std::uint32_t now = 0;
         const auto known = [&](TriangleRef triangle) { return is_known(now, triangle); };
         FirstSearch<Scalar, decltype(known)> search;
-        each_image(world_, path, options_.mask, 1, counters_,
-                   [&](std::uint32_t index, const Instance<Scalar>&, const Path& way, double limit) {
-                       now = index;
-                       auto& here = search.next(world_, index, way, options_, limit, known, counters_);
-                       test(index, here.local, here.options, true, here.collector);
-                       return search.take(world_, path, limit, counters_);
-                   });
+        each_way(path, true, [&](std::uint32_t index, const Path& way, List few, double limit) {
+            now = index;
+            auto& here = search.next(world_, index, way, options_, limit, known, counters_);
+            test(index, here.local, here.options, few, here.collector);
+            return search.take(world_, path, limit, counters_);
+        });
         if (!search.found()) {
             chosen_ = there;
             return false;
@@ -127,17 +125,33 @@ class WorldWays {
     [[nodiscard]] bool is_known(std::uint32_t index, TriangleRef triangle) const {
         return (index == own_.index && triangle == own_.candidate.triangle) || passed_(index, triangle);
     }
-    template <class Collector>
-    void test(std::uint32_t index, const Path& way, const QueryOptions& options, bool near,
-              Collector& collector) const {
-        const Scene<Scalar>& scene = *world_.instances[index].scene;
-        // The list holds what is within the mesh's own grain of the path.
-        if (near && index == own_.index && instance_.still() && own_.list != nullptr && own_.list->complete) {
-            for (unsigned i = 0; i < own_.list->count && collector.limit() >= 0; ++i)
-                test_triangle<Certified>(scene, way, own_.list->triangles[i], options, counters_, collector);
-        } else {
-            traverse<Certified>(scene, way, options, counters_, collector);
+    /// Those of one mesh; empty: all of its triangles are asked about.
+    using List = std::span<const WorldShortlist::Entry>;
+
+    /// Calls `use(index, image, few, limit)` for the meshes that a way may come to; it returns the limit.
+    template <class Use>
+    void each_way(const Path& path, bool near, Use&& use) const {
+        if (!near || own_.list == nullptr || !own_.list->complete)
+            return each_image(world_, path, options_.mask, 1, counters_,
+                              [&](std::uint32_t index, const Instance<Scalar>&, const Path& way, double limit) {
+                                  return use(index, way, List{}, limit);
+                              });
+        const List all = List(own_.list->entries).first(own_.list->count);
+        double limit = 1;
+        for (std::size_t i = 0, end = 0; i < all.size() && limit >= 0; i = end) {
+            const std::uint32_t index = all[i].index;
+            while (end < all.size() && all[end].index == index) ++end;
+            Path way;
+            if (set_local_path(world_.instances[index], path, way))
+                limit = use(index, way, all.subspan(i, end - i), limit);
         }
+    }
+    template <class Collector>
+    void test(std::uint32_t index, const Path& way, const QueryOptions& options, List few, Collector& collector) const {
+        const Scene<Scalar>& scene = *world_.instances[index].scene;
+        if (few.empty()) return traverse<Certified>(scene, way, options, counters_, collector);
+        for (const auto& [mesh, triangle] : few)
+            test_triangle<Certified>(scene, way, triangle, options, counters_, collector);
     }
     [[nodiscard]] Corners in_own(std::uint32_t index, Corners corners) const {
         if (index == own_.index) return corners;
