@@ -41,7 +41,7 @@ struct WorldStatistics {
     std::uint64_t invalid_queries = 0;  ///< queries so far with a coordinate that is NaN or infinite: they had no hit
 };
 
-/// A set of meshes. A mesh may be added many times: it is shared, and an instance takes some 300 bytes.
+/// A set of meshes. A mesh may be added many times: it is shared, and an instance takes some half a kilobyte.
 ///
 /// **What is decided.** A world point p has a local image in each mesh, the point that stands for it there:
 ///
@@ -70,22 +70,44 @@ struct WorldStatistics {
 /// A ray is `origin` and `direction`: the image of the latter is rotated only, and rounded. Its parameters are compared
 /// as they are.
 ///
-/// A ball has the same radius in every mesh. What is decided, exactly, is the way of its center's image: so a ball keeps
-/// its radius from the mesh itself, and from where that is in the world within the above. A radius is not rounded, and
-/// what is near is looked for in boxes that allow for all of it; so nothing is missed, and what is promised of a ball's
-/// way (`SphereHit`) holds in the coordinates of each mesh, and for chains of steps.
+/// A ball has the same radius in every mesh. What is decided, exactly, is the way of its center's image: so a ball
+/// keeps its radius from the mesh itself, and from where that is in the world within the above. A radius is not
+/// rounded, and what is near is looked for in boxes that allow for all of it; so nothing is missed, and what is
+/// promised of a ball's way (`SphereHit`) holds in the coordinates of each mesh, and for chains of steps.
 ///
 /// An image that is not a finite number (p and translation at the far ends of the number range) hits nothing of that
 /// mesh.
+///
+/// **Meshes that deform.** The state at the end of a `DeformationStep` is a mesh like any other, and takes no build: it
+/// lives as long as the step does.
+///
+///     const auto kept = std::make_shared<const pierce::DeformationStep<float>>(deforming.step());
+///     world.replace(id, {kept, &kept->after()});
+///
+/// A world does not sweep through steps itself: times in several meshes would have to be put in exact order, and places
+/// looked for that are clear in all of them. What goes from `at` to `to` during a step asks both, and takes a place
+/// only where both say that the straight way there is clear, from the step's beginning to its end; so it gets through
+/// none of them. `still` leaves out the meshes that deform, which have no pose here:
+///
+///     const auto clear = [&](const Vec3& place) {
+///         return !world.any_hit({at, place}, {.mask = still}) && !step.any_hit({at, place});
+///     };
+///     std::vector<Vec3> places = {to};                // where both are clear; else where the first contact leaves it
+///     for (const Vec3& target : {to, at}) {           // `at`: something that moves may come to what rests
+///         if (const auto hit = world.first_hit({at, target}, {.mask = still})) places.push_back(hit->hit.point);
+///         if (const auto hit = step.sweep({at, target})) places.push_back(hit->place);
+///     }
+///     places.push_back(at);
+///     const auto place = std::find_if(places.begin(), places.end(), clear);  // none: it is squeezed between the two
 ///
 /// **Threads.** Queries are const, noexcept and thread-safe, and allocate nothing. Changes must not run at the same
 /// time as queries or other changes of the same world. A copy is a snapshot: it shares the meshes, takes time and
 /// memory for the instances only, and can be asked while the original changes.
 ///
 /// **Cost.** A tree of boxes over the meshes, changed in place: a query takes the logarithm of their number, and so
-/// does a change, one or two microseconds (tests/bench/world). The box of a turned mesh is that of its own box, turned.
-/// Answers do not depend on the order of changes. In the tips of spikes, where a mesh alone takes some ten microseconds
-/// to find a point (`Hit::point`), a world may take milliseconds.
+/// does a change, two or three microseconds (tests/bench/world). The box of a turned mesh is that of its own box,
+/// turned. Answers do not depend on the order of changes. In the tips of spikes, where a mesh alone takes some ten
+/// microseconds to find a point (`Hit::point`), a world may take milliseconds.
 template <class Scalar>
 class PIERCE_EXPORT World {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
@@ -103,8 +125,7 @@ class PIERCE_EXPORT World {
     World& operator=(World&& other) noexcept;
 
     /// Throws std::invalid_argument where the mesh is null or the pose is none (`Pose`). The mesh must not be moved
-    /// from while it is in a world. One without triangles is fine, and is never hit. A mesh that deforms is a new
-    /// `CollisionMesh` a step, given to `replace`.
+    /// from while it is in a world. One without triangles is fine, and is never hit.
     MeshId add(Mesh mesh, const InstanceOptions<Scalar>& options = {});
     /// Whether there was such a mesh. From then on its id is stale for ever: a place that was used 2^32 - 1 times is
     /// not used again.
@@ -180,8 +201,8 @@ class PIERCE_EXPORT World {
     /// Whether the winding number is not 0.
     [[nodiscard]] bool contains(const Vec3<Scalar>& point, const WorldCountOptions& options = {}) const noexcept;
 
-    /// The meshes whose winding number at the point is not 0, by their index. Returns how many there are; the first ones
-    /// go to `out`.
+    /// The meshes whose winding number at the point is not 0, by their index. Returns how many there are; the first
+    /// ones go to `out`.
     std::size_t containing(const Vec3<Scalar>& point, std::span<MeshId> out,
                            const WorldCountOptions& options = {}) const noexcept;
     /// As `CollisionMesh::locate`: the winding number is that of the world, and the point is on the surface where its

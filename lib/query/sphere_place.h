@@ -21,6 +21,7 @@ template <class Scalar>
 /// What place_sphere() asks about other ways from the start.
 template <class Scalar>
 struct SphereWays {
+    using Number = Scalar;
     const SphereQuery<Scalar>& query;
     const Sphere& sphere;
     double reach;
@@ -48,9 +49,10 @@ struct SphereWays {
 /// The grain is four units in the last place, as for points (kernel/first_place.h): a center that is moved along a
 /// plane and rounded comes nearer to it by less. It is no less than four times what the doubles of sphere/enter.cpp are
 /// in doubt about, so that at rest a center is certainly off the surface by them. `ways` is a SphereWays, or has its
-/// `sphere`, `margin`, `least_grain` and `stops`.
-template <class Scalar, class Ways>
+/// `Number`, `sphere`, `margin`, `least_grain` and `stops`.
+template <class Ways>
 [[nodiscard]] Point place_sphere(const Ways& ways, const Entry& entry, std::uint64_t& retreats) {
+    using Scalar = typename Ways::Number;  // to which places are rounded
     constexpr int k_pushes = 6;
     constexpr int k_steps_back = 26;
     const Sphere& sphere = ways.sphere;

@@ -22,7 +22,7 @@ std::optional<SphereHit<Scalar>> sweep_sphere(const Scene<Scalar>& scene, const 
     each_entry(scene, sphere, margin, counters, first, &list);
     if (!first.found()) return hit;
     const SphereWays<Scalar> ways{query, sphere, reach, margin, list};
-    const Point center = place_sphere<Scalar>(ways, first.best(), counters.retreats);
+    const Point center = place_sphere(ways, first.best(), counters.retreats);
     report(sphere, first.best(), side_of(scene.corners(first.best().triangle), first.best()), center, hit.emplace());
     return hit;
 }

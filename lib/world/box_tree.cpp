@@ -47,8 +47,8 @@ void set_leaf(Node& node, const Box& box, double slack) {
 
 }  // namespace
 
-// There is always a joint for each leaf but one: so where there is a place for a leaf, or one was made, there is one for
-// its joint as well.
+// There is always a joint for each leaf but one: so where there is a place for a leaf, or one was made, there is one
+// for its joint as well.
 std::int32_t BoxTree::take_node(Kind kind) {
     if (free_[kind] == k_none) {
         fours_.resize(nodes_.size() / 2 + 1);

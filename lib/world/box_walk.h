@@ -1,12 +1,12 @@
 // Which boxes of a tree a way comes to, roughly nearest first.
 //
 // A box is taken for larger by m = noise + slack in each coordinate: what images may be off (placement.h), and what is
-// rounded here. low - m - from, in any order, is off by 2^-52 of |low| + m + |from|, and d by 2^-53 of itself, with which a place at
-// the parameter t moves by 2^-52 of the ends: m allows for both (k_box_slack, 2^-49). Times 1 / d it is within 2^-51.4
-// of itself more; so where one parameter is no larger than another, it is within 2^-50 of itself after rounding: `far`
-// is taken for that much larger, twice. (A box that has its slack already, `BoxTree::Four`, was rounded once more, by
-// 2^-53 of itself and the slack.) Where products underflow they are off by 2^-1074. NaN, of 0 times infinity,
-// leaves a bound as it is. Where the way may be too long for numbers all boxes are come to.
+// rounded here. low - m - from, in any order, is off by 2^-52 of |low| + m + |from|, and d by 2^-53 of itself, with
+// which a place at the parameter t moves by 2^-52 of the ends: m allows for both (k_box_slack, 2^-49). Times 1 / d it
+// is within 2^-51.4 of itself more; so where one parameter is no larger than another, it is within 2^-50 of itself
+// after rounding: `far` is taken for that much larger, twice. (A box that has its slack already, `BoxTree::Four`, was
+// rounded once more, by 2^-53 of itself and the slack.) Where products underflow they are off by 2^-1074. NaN, of 0
+// times infinity, leaves a bound as it is. Where the way may be too long for numbers all boxes are come to.
 #pragma once
 
 #include <algorithm>

@@ -116,6 +116,8 @@ template <class Scalar>
 /// What place_sphere() asks about other ways from the start.
 template <class Scalar>
 struct WorldSphereWays {
+    using Number = Scalar;
+
     const WorldScene<Scalar>& world;
     const WorldOptions& options;
     QueryCounters& counters;
@@ -176,7 +178,7 @@ std::optional<WorldSphereHit<Scalar>> sweep_sphere(const WorldScene<Scalar>& wor
     const SphereCandidate entry = in_world(instance, sphere, first.unit, first.candidate);
     const double grain = instance.still() ? 0 : instance.grain;
     const WorldSphereWays<Scalar> ways{world, options, counters, sphere, grain};
-    const Point center = place_sphere<Scalar>(ways, entry, counters.retreats);
+    const Point center = place_sphere(ways, entry, counters.retreats);
     hit.emplace();
     report(sphere, entry, first.side, center, hit->hit);
     hit->mesh = world.id_of(first.index);

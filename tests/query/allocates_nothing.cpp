@@ -111,7 +111,7 @@ void check() {
                                       world.locate(segments[i].to, world_touches).face_count +
                                       world.containing(segments[i].to, world_meshes) +
                                       world.sphere_hits(segments[i], Scalar(0.1), world_contacts) +
-                                      (world.sweep_sphere(segments[i], Scalar(0.1)) ? 1 : 0);
+                                      std::size_t{world.sweep_sphere(segments[i], Scalar(0.1)).has_value()};
             any[i] = count > 3 ? 1 : 0;
         }
         for (std::size_t i = 0; i < 20; ++i) world.set_pose({static_cast<std::uint32_t>(i), 1}, {});
