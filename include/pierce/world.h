@@ -15,7 +15,9 @@
 #include <pierce/export.h>
 #include <pierce/pose.h>
 #include <pierce/ray.h>
+#include <pierce/result.h>
 #include <pierce/types.h>
+#include <pierce/world_answers.h>
 #include <pierce/world_hit.h>
 
 namespace pierce {
@@ -39,7 +41,7 @@ struct WorldStatistics {
     std::uint64_t invalid_queries = 0;  ///< queries so far with a coordinate that is NaN or infinite: they had no hit
 };
 
-/// A set of meshes. A mesh may be added many times: it is shared, and an instance takes some 300 bytes.
+/// A set of meshes. A mesh may be added many times: it is shared, and an instance takes some half a kilobyte.
 ///
 /// **What is decided.** A world point p has a local image in each mesh, the point that stands for it there:
 ///
@@ -68,17 +70,44 @@ struct WorldStatistics {
 /// A ray is `origin` and `direction`: the image of the latter is rotated only, and rounded. Its parameters are compared
 /// as they are.
 ///
+/// A ball has the same radius in every mesh. What is decided, exactly, is the way of its center's image: so a ball
+/// keeps its radius from the mesh itself, and from where that is in the world within the above. A radius is not
+/// rounded, and what is near is looked for in boxes that allow for all of it; so nothing is missed, and what is
+/// promised of a ball's way (`SphereHit`) holds in the coordinates of each mesh, and for chains of steps.
+///
 /// An image that is not a finite number (p and translation at the far ends of the number range) hits nothing of that
 /// mesh.
+///
+/// **Meshes that deform.** The state at the end of a `DeformationStep` is a mesh like any other, and takes no build: it
+/// lives as long as the step does.
+///
+///     const auto kept = std::make_shared<const pierce::DeformationStep<float>>(deforming.step());
+///     world.replace(id, {kept, &kept->after()});
+///
+/// A world does not sweep through steps itself: times in several meshes would have to be put in exact order, and places
+/// looked for that are clear in all of them. What goes from `at` to `to` during a step asks both, and takes a place
+/// only where both say that the straight way there is clear, from the step's beginning to its end; so it gets through
+/// none of them. `still` leaves out the meshes that deform, which have no pose here:
+///
+///     const auto clear = [&](const Vec3& place) {
+///         return !world.any_hit({at, place}, {.mask = still}) && !step.any_hit({at, place});
+///     };
+///     std::vector<Vec3> places = {to};                // where both are clear; else where the first contact leaves it
+///     for (const Vec3& target : {to, at}) {           // `at`: something that moves may come to what rests
+///         if (const auto hit = world.first_hit({at, target}, {.mask = still})) places.push_back(hit->hit.point);
+///         if (const auto hit = step.sweep({at, target})) places.push_back(hit->place);
+///     }
+///     places.push_back(at);
+///     const auto place = std::find_if(places.begin(), places.end(), clear);  // none: it is squeezed between the two
 ///
 /// **Threads.** Queries are const, noexcept and thread-safe, and allocate nothing. Changes must not run at the same
 /// time as queries or other changes of the same world. A copy is a snapshot: it shares the meshes, takes time and
 /// memory for the instances only, and can be asked while the original changes.
 ///
 /// **Cost.** A tree of boxes over the meshes, changed in place: a query takes the logarithm of their number, and so
-/// does a change, one or two microseconds (tests/bench/world). The box of a turned mesh is that of its own box, turned.
-/// Answers do not depend on the order of changes. In the tips of spikes, where a mesh alone takes some ten microseconds
-/// to find a point (`Hit::point`), a world may take milliseconds.
+/// does a change, two or three microseconds (tests/bench/world). The box of a turned mesh is that of its own box,
+/// turned. Answers do not depend on the order of changes. In the tips of spikes, where a mesh alone takes some ten
+/// microseconds to find a point (`Hit::point`), a world may take milliseconds.
 template <class Scalar>
 class PIERCE_EXPORT World {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
@@ -96,8 +125,7 @@ class PIERCE_EXPORT World {
     World& operator=(World&& other) noexcept;
 
     /// Throws std::invalid_argument where the mesh is null or the pose is none (`Pose`). The mesh must not be moved
-    /// from while it is in a world. One without triangles is fine, and is never hit. A mesh that deforms is a new
-    /// `CollisionMesh` a step, given to `replace`.
+    /// from while it is in a world. One without triangles is fine, and is never hit.
     MeshId add(Mesh mesh, const InstanceOptions<Scalar>& options = {});
     /// Whether there was such a mesh. From then on its id is stale for ever: a place that was used 2^32 - 1 times is
     /// not used again.
@@ -108,6 +136,14 @@ class PIERCE_EXPORT World {
     void set_pose(MeshId id, const Pose<Scalar>& pose);
     void set_layers(MeshId id, std::uint32_t layers);
     void set_face_layers(MeshId id, std::shared_ptr<const std::vector<std::uint32_t>> face_layers);
+
+    /// The same without exceptions. Where nothing was done `value` is `MeshId{}`, and `message` says why.
+    [[nodiscard]] Result<MeshId> try_add(Mesh mesh, const InstanceOptions<Scalar>& options = {}) noexcept;
+    [[nodiscard]] Result<MeshId> try_replace(MeshId id, Mesh mesh) noexcept;
+    [[nodiscard]] Result<MeshId> try_set_pose(MeshId id, const Pose<Scalar>& pose) noexcept;
+    [[nodiscard]] Result<MeshId> try_set_layers(MeshId id, std::uint32_t layers) noexcept;
+    [[nodiscard]] Result<MeshId> try_set_face_layers(
+        MeshId id, std::shared_ptr<const std::vector<std::uint32_t>> face_layers) noexcept;
 
     [[nodiscard]] bool holds(MeshId id) const noexcept;
     [[nodiscard]] std::size_t size() const noexcept;
@@ -148,10 +184,50 @@ class PIERCE_EXPORT World {
         return crossings_of_ray(ray, options);
     }
 
+    /// As `first_hit` of a segment: `CollisionMesh::sweep` says what a particle does with the answer.
+    [[nodiscard]] std::optional<WorldHit<Scalar>> sweep(const Segment<Scalar>& step,
+                                                        const WorldOptions& options = {}) const noexcept {
+        return first_hit(step, options);
+    }
+
+    /// As `CollisionMesh::passages`, of all meshes, in order of (fraction, mesh). Faces are taken together that are of
+    /// one mesh: where meshes meet, each has a passage of its own. So the passages of each mesh are its own ones, and
+    /// their `crossings` add up to those of the world.
+    std::size_t passages(const Segment<Scalar>& segment, std::span<WorldPassage<Scalar>> out,
+                         const WorldPassageOptions& options = {}, std::span<FaceTouch> faces = {}) const noexcept;
+
     /// The sum of the winding numbers of the point's images.
     [[nodiscard]] int winding_number(const Vec3<Scalar>& point, const WorldCountOptions& options = {}) const noexcept;
     /// Whether the winding number is not 0.
     [[nodiscard]] bool contains(const Vec3<Scalar>& point, const WorldCountOptions& options = {}) const noexcept;
+
+    /// The meshes whose winding number at the point is not 0, by their index. Returns how many there are; the first
+    /// ones go to `out`.
+    std::size_t containing(const Vec3<Scalar>& point, std::span<MeshId> out,
+                           const WorldCountOptions& options = {}) const noexcept;
+    /// As `CollisionMesh::locate`: the winding number is that of the world, and the point is on the surface where its
+    /// image in some mesh is on that of the mesh, exactly. `faces` are in order of (mesh, face, triangle). Of one mesh
+    /// the same is `mesh(id)->locate(to_mesh(id, point))`.
+    [[nodiscard]] Location locate(const Vec3<Scalar>& point, std::span<WorldTouch> faces = {},
+                                  const WorldCountOptions& options = {}) const noexcept;
+
+    /// As in `CollisionMesh`, with the images of `center` and of the step's ends, see above. `center` of a hit is
+    /// verified in all meshes: sweeping the ball there has no hit. Between meshes the earlier time is first, as rounded
+    /// down (`SphereHit::fraction` before it is a Scalar), then the lower `MeshId::index`; a contact that is at the
+    /// start comes first, the deepest of them before others. Where no two of the mesh's and the query's lengths are
+    /// 2^300 times as large as one another, answers do not depend on the order of changes.
+    [[nodiscard]] std::optional<WorldSphereHit<Scalar>> sweep_sphere(const Segment<Scalar>& step, Scalar radius,
+                                                                     const WorldOptions& options = {}) const noexcept;
+    /// Contacts of each mesh by itself: an edge that two meshes share is one of each.
+    std::size_t sphere_hits(const Segment<Scalar>& step, Scalar radius, std::span<WorldSphereHit<Scalar>> out,
+                            const WorldOptions& options = {}) const noexcept;
+    std::size_t sphere_contacts(const Vec3<Scalar>& center, Scalar radius, std::span<WorldSphereHit<Scalar>> out,
+                                const WorldOptions& options = {}) const noexcept;
+
+    /// Why each face near the segment is its first hit or is not, in order of (mesh, triangle): of each mesh whose
+    /// layers count what `CollisionMesh::explain` says of the image. For debugging: it looks at all faces.
+    [[nodiscard]] std::vector<WorldFaceVerdict> explain(const Segment<Scalar>& segment,
+                                                        const WorldOptions& options = {}) const;
 
     /// Batches: answer i is what the single call for number i gives, to the last bit, whatever the executor. Lengths
     /// that differ throw std::invalid_argument as in `CollisionMesh`. Queries of a part go one after the other. Return
@@ -162,6 +238,23 @@ class PIERCE_EXPORT World {
                          const WorldOptions& options = {}, const Executor& executor = {}) const;
     void crossings(const Segments<Scalar>& segments, std::span<int> out, const WorldCountOptions& options = {},
                    const Executor& executor = {}) const;
+    std::size_t sweeps(const Segments<Scalar>& steps, const WorldHitsOut<Scalar>& out, const WorldOptions& options = {},
+                       const Executor& executor = {}) const;
+    /// Compressed rows, as `CollisionMesh::all_hits`.
+    std::size_t all_hits(const Segments<Scalar>& segments, std::span<std::size_t> offsets,
+                         std::span<WorldHit<Scalar>> hits, const WorldOptions& options = {},
+                         const Executor& executor = {}) const;
+    std::size_t sweep_spheres(const Segments<Scalar>& steps, Scalar radius,
+                              std::span<std::optional<WorldSphereHit<Scalar>>> out, const WorldOptions& options = {},
+                              const Executor& executor = {}) const;
+    std::size_t sweep_spheres(const Segments<Scalar>& steps, std::span<const Scalar> radii,
+                              std::span<std::optional<WorldSphereHit<Scalar>>> out, const WorldOptions& options = {},
+                              const Executor& executor = {}) const;
+    template <detail::RaysOf<Scalar> Batch>
+    std::size_t all_hits(const Batch& rays, std::span<std::size_t> offsets, std::span<WorldHit<Scalar>> hits,
+                         const WorldOptions& options = {}, const Executor& executor = {}) const {
+        return all_hits_of_rays(rays, offsets, hits, options, executor);
+    }
     template <detail::RaysOf<Scalar> Batch>
     std::size_t first_hits(const Batch& rays, const WorldHitsOut<Scalar>& out, const WorldOptions& options = {},
                            const Executor& executor = {}) const {
@@ -182,6 +275,10 @@ class PIERCE_EXPORT World {
     std::size_t contains_points(const PointsView<Scalar>& points, std::span<std::uint8_t> out,
                                 const WorldCountOptions& options = {}, const Executor& executor = {}) const;
 
+    /// Returns the number of points that are on the surface.
+    std::size_t locate_points(const PointsView<Scalar>& points, std::span<Location> out,
+                              const WorldCountOptions& options = {}, const Executor& executor = {}) const;
+
     [[nodiscard]] WorldStatistics statistics() const noexcept;
 
   private:
@@ -197,6 +294,10 @@ class PIERCE_EXPORT World {
                                  const Executor& executor) const;
     void crossings_of_rays(const Rays<Scalar>& rays, std::span<int> out, const WorldCountOptions& options,
                            const Executor& executor) const;
+
+    std::size_t all_hits_of_rays(const Rays<Scalar>& rays, std::span<std::size_t> offsets,
+                                 std::span<WorldHit<Scalar>> hits, const WorldOptions& options,
+                                 const Executor& executor) const;
 
     struct PIERCE_HIDDEN Impl;
     std::unique_ptr<Impl> impl_;

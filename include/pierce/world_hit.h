@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <variant>
 
+#include <pierce/batch.h>
 #include <pierce/hit.h>
 #include <pierce/options.h>
 #include <pierce/small_callable.h>
@@ -91,8 +92,16 @@ struct WorldCountOptions {
     QueryCounters* counters = nullptr;
 };
 
+/// Hits as one array for each of their members, as in `HitArrays`, and their meshes; for a miss that is `MeshId{}`.
+template <class Scalar>
+struct WorldHitArrays {
+    HitArrays<Scalar> hits;
+    MeshId* mesh = nullptr;
+};
+
 /// Where a batch writes its hits. A miss is `no_world_hit` in plain memory.
 template <class Scalar>
-using WorldHitsOut = std::variant<std::span<std::optional<WorldHit<Scalar>>>, std::span<WorldHit<Scalar>>>;
+using WorldHitsOut =
+    std::variant<std::span<std::optional<WorldHit<Scalar>>>, std::span<WorldHit<Scalar>>, WorldHitArrays<Scalar>>;
 
 }  // namespace pierce

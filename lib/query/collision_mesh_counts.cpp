@@ -9,6 +9,7 @@
 #include <query/count_batches.h>
 #include <query/locate.h>
 #include <query/parts.h>
+#include <query/rows.h>
 
 namespace pierce {
 
@@ -60,40 +61,6 @@ void all_crossings(const Impl& impl, const Ways<Scalar>& ways, std::span<int> ou
         });
 }
 
-template <class Impl, class Scalar>
-std::size_t all_rows(const Impl& impl, const Ways<Scalar>& ways, std::span<std::size_t> offsets,
-                     std::span<Hit<Scalar>> hits, const QueryOptions& options, const Executor& executor) {
-    offsets[0] = 0;
-    const bool nothing = asks_nothing(options);
-    const auto hits_of = [&](std::size_t i, std::span<Hit<Scalar>> row, QueryCounters& counters) {
-        return ways.with(i, [&](const auto& way) { return detail::all_hits(impl.scene, way, row, options, counters); });
-    };
-    // Each row's length is put where the row ends.
-    in_parts(
-        ways.size(), options.counters, executor, [&](std::size_t count) { impl.count_invalid(count); },
-        [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
-            for (std::size_t i = first; i < last; ++i) {
-                const bool asked = ways.is_valid(i);
-                invalid += asked ? 0 : 1;
-                offsets[i + 1] = asked && !nothing ? hits_of(i, {}, counters) : 0;
-            }
-            return std::size_t{0};
-        });
-    for (std::size_t i = 0; i < ways.size(); ++i) offsets[i + 1] += offsets[i];
-    if (hits.empty() || offsets.back() == 0) return offsets.back();
-    in_parts(
-        ways.size(), options.counters, executor, [](std::size_t) {},
-        [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t&) {
-            counters.queries = 0;  // counted before
-            for (std::size_t i = first; i < last && offsets[i + 1] <= hits.size(); ++i) {
-                const std::span row = hits.subspan(offsets[i], offsets[i + 1] - offsets[i]);
-                if (!row.empty()) hits_of(i, row, counters);
-            }
-            return std::size_t{0};
-        });
-    return offsets.back();
-}
-
 }  // namespace
 
 template <class Scalar>
@@ -140,18 +107,16 @@ template <class Scalar>
 std::size_t CollisionMesh<Scalar>::all_hits(const Segments<Scalar>& segments, std::span<std::size_t> offsets,
                                             std::span<Hit<Scalar>> hits, const QueryOptions& options,
                                             const Executor& executor) const {
-    check_sizes("all_hits", segments, segments.size());
-    check_sizes("all_hits", segments.size() + 1, "ends of rows", offsets.size(), "offsets");
-    return all_rows<Impl, Scalar>(*impl_, segments, offsets, hits, options, executor);
+    check_rows(segments, offsets);
+    return all_rows<Impl, Scalar, Hit<Scalar>>(*impl_, segments, offsets, hits, options, executor);
 }
 
 template <class Scalar>
 std::size_t CollisionMesh<Scalar>::all_hits_of_rays(const Rays<Scalar>& rays, std::span<std::size_t> offsets,
                                                     std::span<Hit<Scalar>> hits, const QueryOptions& options,
                                                     const Executor& executor) const {
-    check_sizes("all_hits", rays, rays.size());
-    check_sizes("all_hits", rays.size() + 1, "ends of rows", offsets.size(), "offsets");
-    return all_rows<Impl, Scalar>(*impl_, rays, offsets, hits, options, executor);
+    check_rows(rays, offsets);
+    return all_rows<Impl, Scalar, Hit<Scalar>>(*impl_, rays, offsets, hits, options, executor);
 }
 
 #define PIERCE_COUNTS(Scalar)                                                                                          \

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include <query/candidate.h>
 #include <query/face_touches.h>
@@ -27,9 +28,10 @@ template <class Scalar>
                            counters);
 }
 
-/// All faces that a path meets at one fraction.
+/// All faces that a path meets at one fraction. `Found`: a Meet.
+template <class Found>
 struct MeetingPlace {
-    Meet first;  ///< the first that was found, for the order
+    Found first;  ///< the first that was found, for the order
     /// Of those that are passed from the front, and from the back, the one of the smallest face; `hit` if there is any.
     std::array<Decision, 2> decisions;
     std::array<TriangleRef, 2> triangles;
@@ -55,14 +57,20 @@ struct MeetingPlace {
 };
 
 /// Keeps the first places of a path after a given one, in order. There are few as a rule: a sorted array is enough.
-template <class Scalar>
+/// `Meetings` has
+///   Found                 what is met: a Meet, or one that says more
+///   int order(x, y)       of two of them: < 0 where the first comes before the second, 0 at the same place
+///   FaceTouch touch(x)    as the caller gets it
+template <class Meetings>
 class FirstPlaces {
   public:
+    using Meet = typename Meetings::Found;
+    using Place = MeetingPlace<Meet>;
+
     /// So many are found by one traversal; it is repeated for those that come after.
     static constexpr std::size_t k_most = 32;
 
-    FirstPlaces(const Scene<Scalar>& scene, const Path& path, QueryCounters& counters)
-        : scene_(scene), path_(path), counters_(counters) {}
+    explicit FirstPlaces(const Meetings& meetings) : meetings_(meetings) {}
 
     /// Begins anew with those after the last one that was kept; at most `most` of them are wanted.
     void go_on(std::size_t most) {
@@ -71,14 +79,14 @@ class FirstPlaces {
         kept_ = 0;
         most_ = std::min(most, k_most);
     }
-    [[nodiscard]] std::span<const MeetingPlace> kept() const { return std::span(places_).first(kept_); }
+    [[nodiscard]] std::span<const Place> kept() const { return std::span(places_).first(kept_); }
     /// Whether there may be others behind those that are kept.
     [[nodiscard]] bool full() const { return kept_ == most_; }
     /// Meets beyond this fraction are of no use.
     [[nodiscard]] double limit() const { return full() ? places_[kept_ - 1].first.latest : 1; }
 
     void add(const Meet& meet) {
-        if (begun_ && order(meet, after_) <= 0) return;
+        if (begun_ && meetings_.order(meet, after_) <= 0) return;
         const auto [at, same] = find(meet);
         if (!same) {
             if (at == most_) return;
@@ -89,19 +97,19 @@ class FirstPlaces {
             places_[at] = {};
             places_[at].first = meet;
         }
-        places_[at].add(meet, touch_of(scene_, meet.triangle, meet.decision, meet.crossing));
+        places_[at].add(meet, meetings_.touch(meet));
     }
-    struct Found {
+    struct At {
         std::size_t at;  ///< the first that does not come before
         bool same;       ///< it is the place of the meet
     };
     /// Where a meet is among the places that are kept.
-    [[nodiscard]] Found find(const Meet& meet) {
+    [[nodiscard]] At find(const Meet& meet) const {
         std::size_t low = 0;
         std::size_t high = kept_;
         while (low < high) {
             const std::size_t middle = (low + high) / 2;
-            const int before = order(meet, places_[middle].first);
+            const int before = meetings_.order(meet, places_[middle].first);
             if (before == 0) return {middle, true};
             if (before < 0)
                 high = middle;
@@ -112,12 +120,8 @@ class FirstPlaces {
     }
 
   private:
-    int order(const Meet& x, const Meet& y) { return order_along(scene_, path_, x, y, counters_); }
-
-    const Scene<Scalar>& scene_;
-    const Path& path_;
-    QueryCounters& counters_;
-    std::array<MeetingPlace, k_most> places_;
+    const Meetings& meetings_;
+    std::array<Place, k_most> places_;
     std::size_t kept_ = 0;
     std::size_t most_ = 0;
     bool begun_ = false;

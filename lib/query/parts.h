@@ -52,7 +52,8 @@ std::size_t in_parts(std::size_t count, QueryCounters* given, const Executor& ex
 [[gnu::noinline]] inline bool is_limit(const double& max_fraction) { return max_fraction >= 0; }
 
 /// Whether a limit leaves no hit to any query.
-[[nodiscard]] inline bool asks_nothing(const QueryOptions& options) {
+template <class Options>
+[[nodiscard]] bool asks_nothing(const Options& options) {
     const StandardArithmetic standard;  // NaN is no reason to trap
     return !is_limit(options.max_fraction);
 }

@@ -1,119 +1,37 @@
-// Passages: all faces that a path meets, taken together by place.
+// Passages: all faces of a mesh that a path meets, taken together by place.
 #include <query/passages.h>
 
-#include <bit>
-
-#include <exact/crossing.h>
-#include <exact/touch.h>
-#include <query/broadphase.h>
-#include <query/certified.h>
-#include <query/meets.h>
+#include <query/meetings.h>
 
 namespace pierce::detail {
 
 namespace {
 
-/// Whether a path meets a triangle that counts under `options`, unless it is beyond `limit`.
+/// The faces of one mesh (meetings.h).
 template <class Scalar>
-bool meets(const Scene<Scalar>& scene, const Path& path, TriangleRef triangle, const QueryOptions& options,
-           double limit, QueryCounters& counters, Meet& meet) {
-    if (masked(scene, triangle, options)) return false;
-    const Corners corners = scene.corners(triangle);
-    Measured measured;
-    measure_path<Scalar>(corners, path, measured);
-    static_cast<Filtered&>(meet) = filter_strictly(measured, Sides::both);
-    if (meet.verdict == Verdict::miss || meet.earliest > limit) return false;
-    meet.triangle = triangle;
-    meet.at_end = false;
-    if (meet.verdict == Verdict::hit) {
-        meet.crossing = meet.decision.side == Sides::front ? 1 : -1;
-    } else {
-        ++counters.exact_decisions;
-        const PathTouch exact = touch(path, corners);
-        if (!exact.decision.hit) return false;
-        meet.decision = exact.decision;
-        meet.at_end = exact.at_end;
-        meet.crossing = crossing(path, corners);
-        if (meet.at_end)
-            meet.earliest = meet.latest = 1;
-        else
-            set_exact_interval(path, corners, counters, meet);
-    }
-    if (options.sides != Sides::both && options.sides != meet.decision.side) return false;
-    const double most = options.max_fraction;
-    if (meet.latest > most && (meet.earliest > most || !fraction_at_most(path, corners, most))) return false;
-    return !options.accept || accepted(scene, path, triangle, meet.decision, measured, options, counters);
-}
+struct MeshMeetings {
+    using Found = Meet;
+    using Answer = Passage<Scalar>;
 
-/// Calls `use(meet)` for all meets that count, up to `limit()`, which may decrease.
-template <class Scalar, class Limit, class Use>
-void each_meet(const Scene<Scalar>& scene, const Path& path, const QueryOptions& options, QueryCounters& counters,
-               Limit&& limit, Use&& use) {
-    const auto most = [&] { return std::min(limit(), options.max_fraction); };
-    each_candidate(scene, path, options.sides, most(), counters, [&](ClusterRef cluster, unsigned lanes) {
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const TriangleRef triangle{cluster, static_cast<std::uint32_t>(std::countr_zero(lanes))};
-            Meet meet;
-            if (meets(scene, path, triangle, options, most(), counters, meet)) use(meet);
-        }
-        return most();
-    });
-}
+    const Scene<Scalar>& scene;
+    const Path& path;
+    const QueryOptions& options;
+    QueryCounters& counters;
 
-template <class Scalar>
-void write(const Scene<Scalar>& scene, const Path& path, const MeetingPlace& place, std::size_t first_face,
-           QueryCounters& counters, Passage<Scalar>& out) {
-    const std::size_t chosen = place.chosen();
-    const Decision& decision = place.decisions[chosen];
-    Measured measured;
-    measure_path<Scalar>(scene.corners(place.triangles[chosen]), path, measured);
-    Values values;
-    Rounded<Scalar> rounded;
-    certify(scene.narrow(), measured, path, decision, scene.grain, counters, values, rounded);
-    out.at_start = decision.at_start;
-    out.at_end = place.first.at_end;
-    out.fraction = out.at_end ? Scalar(1) : rounded.weights[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-        out.position[k] = out.at_end ? static_cast<Scalar>(path.to[k]) : rounded.position[k];
-        out.normal[k] = rounded.normal[k];
+    template <class Limit, class Use>
+    void each(Limit&& limit, Use&& use) const {
+        const auto all = [](TriangleRef) { return true; };
+        each_meet(scene, path, options, counters, all, limit, use);
     }
-    out.face = place.faces[chosen].face;
-    out.triangle = place.faces[chosen].triangle;
-    out.first_face = first_face;
-    out.face_count = place.face_count;
-    out.crossings = place.crossings;
-    out.kind = place.crossings > 0   ? PassageKind::entering
-               : place.crossings < 0 ? PassageKind::leaving
-                                     : PassageKind::grazing;
-    out.side = decision.side;
-    out.feature = decision.feature;
-    out.feature_index = decision.feature_index;
-}
-
-/// Writes the faces of passages that were written, those of each only if all of them fit.
-template <class Scalar>
-void write_faces(const Scene<Scalar>& scene, const Path& path, FirstPlaces<Scalar>& places,
-                 std::span<const Passage<Scalar>> passages, const QueryOptions& options, QueryCounters& counters,
-                 std::span<FaceTouch> faces) {
-    const auto fits = [&](const Passage<Scalar>& passage) {
-        return passage.first_face + passage.face_count <= faces.size();
-    };
-    while (!passages.empty() && !fits(passages.back())) passages = passages.first(passages.size() - 1);
-    if (passages.empty()) return;
-    std::array<std::size_t, FirstPlaces<Scalar>::k_most> count{};
-    const double last = places.kept()[passages.size() - 1].first.latest;
-    each_meet(
-        scene, path, options, counters, [last] { return last; },
-        [&](const Meet& meet) {
-            const auto [at, same] = places.find(meet);
-            if (!same || at >= passages.size() || count[at] == passages[at].face_count) return;
-            faces[passages[at].first_face + count[at]++] = touch_of(scene, meet.triangle, meet.decision, meet.crossing);
-        });
-    for (const Passage<Scalar>& passage : passages) {
-        const auto row = faces.subspan(passage.first_face, passage.face_count);
-        std::sort(row.begin(), row.end(), [](const FaceTouch& x, const FaceTouch& y) { return comes_before(x, y); });
+    [[nodiscard]] int order(const Meet& x, const Meet& y) const { return order_along(scene, path, x, y, counters); }
+    [[nodiscard]] FaceTouch touch(const Meet& meet) const {
+        return touch_of(scene, meet.triangle, meet.decision, meet.crossing);
     }
-}
+    void write(const MeetingPlace<Meet>& place, std::size_t first_face, Answer& out) const {
+        detail::write(scene, path, place, first_face, counters, out);
+    }
+    static const Answer& passage_of(const Answer& passage) { return passage; }
+};
 
 }  // namespace
 
@@ -123,26 +41,7 @@ std::size_t passages(const Scene<Scalar>& scene, const Segment<Scalar>& segment,
     const Path path = to_path(segment);
     const QueryOptions options{
         .sides = given.sides, .max_fraction = given.max_fraction, .face_mask = given.face_mask, .accept = given.accept};
-    FirstPlaces<Scalar> places(scene, path, counters);
-    std::size_t total = 0;
-    std::size_t face_total = 0;
-    for (;;) {
-        const std::size_t first = std::min(total, out.size());
-        if (!given.count_all && first == out.size()) return total;
-        places.go_on(given.count_all ? places.k_most : out.size() - first);
-        each_meet(
-            scene, path, options, counters, [&] { return places.limit(); },
-            [&](const Meet& meet) { places.add(meet); });
-        const std::span<const MeetingPlace> kept = places.kept();
-        const std::span<Passage<Scalar>> here = out.subspan(first, std::min(kept.size(), out.size() - first));
-        for (std::size_t i = 0; i < here.size(); ++i) {
-            write(scene, path, kept[i], face_total, counters, here[i]);
-            face_total += kept[i].face_count;
-        }
-        write_faces<Scalar>(scene, path, places, here, options, counters, faces);
-        total += kept.size();
-        if (!places.full()) return total;
-    }
+    return all_passages(MeshMeetings<Scalar>{scene, path, options, counters}, out, faces, given.count_all);
 }
 
 template std::size_t passages(const Scene<float>&, const Segment<float>&, std::span<Passage<float>>,

@@ -47,8 +47,6 @@ struct ArraysOfHits {
         write(hit);
         scatter(i, hit);
     }
-
-  private:
     void scatter(std::size_t i, const Hit<Scalar>& hit) const {
         const auto set = [i](auto* array, auto value) {
             if (array != nullptr) array[i] = value;

@@ -21,11 +21,13 @@ template <class Scalar>
 /// What place_sphere() asks about other ways from the start.
 template <class Scalar>
 struct SphereWays {
+    using Number = Scalar;
     const SphereQuery<Scalar>& query;
     const Sphere& sphere;
     double reach;
     double margin;
     const Shortlist& list;
+    double least_grain = 0;  ///< of the place
 
     /// Where on the way from the start to `to` the sphere enters a triangle. `near`: within `margin` of a point of the
     /// path up to the hit.
@@ -46,9 +48,11 @@ struct SphereWays {
 ///
 /// The grain is four units in the last place, as for points (kernel/first_place.h): a center that is moved along a
 /// plane and rounded comes nearer to it by less. It is no less than four times what the doubles of sphere/enter.cpp are
-/// in doubt about, so that at rest a center is certainly off the surface by them.
-template <class Scalar>
-[[nodiscard]] Point place_sphere(const SphereWays<Scalar>& ways, const Entry& entry, std::uint64_t& retreats) {
+/// in doubt about, so that at rest a center is certainly off the surface by them. `ways` is a SphereWays, or has its
+/// `Number`, `sphere`, `margin`, `least_grain` and `stops`.
+template <class Ways>
+[[nodiscard]] Point place_sphere(const Ways& ways, const Entry& entry, std::uint64_t& retreats) {
+    using Scalar = typename Ways::Number;  // to which places are rounded
     constexpr int k_pushes = 6;
     constexpr int k_steps_back = 26;
     const Sphere& sphere = ways.sphere;
@@ -58,8 +62,8 @@ template <class Scalar>
     const Point there = true_place(entry.time);
     // What was lost of the true place: roundings of what is far away.
     const double lost = 0x1p-50 * std::max(size_of(from), size_of(minus(there, from)));
-    const double grain =
-        std::max({k_grain_units * last_place<Scalar>(size_of(there)), lost, 0x1p-45 * entry.reach / sphere.unit});
+    const double grain = std::max({k_grain_units * last_place<Scalar>(size_of(there)), lost,
+                                   0x1p-45 * entry.reach / sphere.unit, ways.least_grain});
     const double gone = entry.time * sphere.way_size / sphere.unit;
     // At rest: nothing is gained by moving, and a ball that is pushed into the floor for ever does not shake.
     if (gone <= 2 * grain && entry.distance - sphere.scaled_radius >= grain * sphere.unit / 2) return from;

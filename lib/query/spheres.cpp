@@ -1,99 +1,10 @@
 // Queries about spheres: the first triangle that a swept one enters, all of them, and those that touch one at rest.
 #include <query/spheres.h>
 
-#include <algorithm>
-
+#include <query/sphere_hits.h>
 #include <query/sphere_place.h>
 
 namespace pierce::detail {
-
-namespace {
-
-template <class Scalar>
-void report(const Sphere& sphere, const Corners& corners, const SphereCandidate& candidate, const Point& center,
-            SphereHit<Scalar>& hit) {
-    const auto rounded = [](const Point& p) {
-        return Coordinates<Scalar>(static_cast<Scalar>(p[0]), static_cast<Scalar>(p[1]), static_cast<Scalar>(p[2]));
-    };
-    hit = {};
-    hit.fraction = rounded_down<Scalar>(candidate.time);
-    hit.center = rounded(center);
-    hit.contact = rounded(plus(sphere.path.from, times(1 / sphere.unit, candidate.nearest.point)));
-    hit.normal = rounded(candidate.normal);
-    if (candidate.overlaps) {
-        const double depth = sphere.radius - candidate.distance / sphere.unit;
-        hit.overlap = std::max(static_cast<Scalar>(depth), std::numeric_limits<Scalar>::denorm_min());
-    }
-    hit.face = candidate.face;
-    hit.triangle = candidate.number;
-    hit.side = side_of(corners, candidate);
-    hit.feature = candidate.nearest.feature;
-    hit.feature_index = static_cast<std::uint8_t>(candidate.nearest.index);
-    hit.at_start = candidate.at_start;
-}
-
-/// Whether another triangle is met before this one that has what is touched of it: then both are one contact, the other
-/// one's. Faces come before edges and corners, so that those are left out that lie on faces which are hit already; then
-/// the earlier one. As that is an order, one of those that are taken together is always left.
-template <class Scalar, class Test>
-[[nodiscard]] bool is_anothers(const SphereQuery<Scalar>& query, const SphereCandidate& candidate, Test&& test) {
-    const auto& scene = query.scene;
-    const Corners corners = scene.corners(candidate.triangle);
-    const Feature feature = candidate.nearest.feature;
-    const std::size_t first = candidate.nearest.index;
-    const std::size_t count = feature == Feature::face ? 3 : feature == Feature::edge ? 2 : 1;
-    bool found = false;
-    const Path path{corners[first], corners[first]};
-    each_near(scene, path, 0, 1, query.counters, [&](TriangleRef triangle) {
-        if (found || triangle == candidate.triangle) return found ? -1.0 : 1.0;
-        const Corners others = scene.corners(triangle);
-        for (std::size_t k = 0; k < count; ++k)
-            if (std::find(others.begin(), others.end(), corners[(first + k) % 3]) == others.end()) return 1.0;
-        SphereCandidate other;
-        if (!test(triangle, other)) return 1.0;
-        const bool is_face = other.nearest.feature == Feature::face;
-        found = is_face != (feature == Feature::face) ? is_face : comes_before(other, candidate);
-        return found ? -1.0 : 1.0;
-    });
-    return found;
-}
-
-/// The first hits of `out.size()` in an order, of all that come; as a heap, the last of them on top.
-template <class Scalar, class Before>
-class Kept {
-  public:
-    Kept(std::span<SphereHit<Scalar>> out, Before before) : out_(out), before_(before) {}
-    void add(const SphereHit<Scalar>& hit) {
-        ++total_;
-        if (out_.empty()) return;
-        if (kept_ == out_.size()) {
-            if (!before_(hit, out_[0])) return;
-            std::pop_heap(out_.begin(), out_.end(), before_);
-            --kept_;
-        }
-        out_[kept_++] = hit;
-        std::push_heap(out_.begin(), end(), before_);
-    }
-    std::size_t sort() {
-        std::sort_heap(out_.begin(), end(), before_);
-        return total_;
-    }
-
-  private:
-    auto end() const { return out_.begin() + static_cast<std::ptrdiff_t>(kept_); }
-
-    std::span<SphereHit<Scalar>> out_;
-    Before before_;
-    std::size_t kept_ = 0;
-    std::size_t total_ = 0;
-};
-
-template <class Scalar>
-[[nodiscard]] bool number_before(const SphereHit<Scalar>& x, const SphereHit<Scalar>& y) {
-    return x.face != y.face ? x.face < y.face : x.triangle < y.triangle;
-}
-
-}  // namespace
 
 template <class Scalar>
 std::optional<SphereHit<Scalar>> sweep_sphere(const Scene<Scalar>& scene, const Segment<Scalar>& step, Scalar radius,
@@ -112,7 +23,7 @@ std::optional<SphereHit<Scalar>> sweep_sphere(const Scene<Scalar>& scene, const 
     if (!first.found()) return hit;
     const SphereWays<Scalar> ways{query, sphere, reach, margin, list};
     const Point center = place_sphere(ways, first.best(), counters.retreats);
-    report(sphere, scene.corners(first.best().triangle), first.best(), center, hit.emplace());
+    report(sphere, first.best(), side_of(scene.corners(first.best().triangle), first.best()), center, hit.emplace());
     return hit;
 }
 
@@ -137,7 +48,7 @@ std::size_t sphere_hits(const Scene<Scalar>& scene, const Segment<Scalar>& step,
         if (!test(triangle, candidate) || is_anothers(query, candidate, test)) return limit;
         SphereHit<Scalar> hit;
         const Point center = plus(path.from, times(1 / sphere.unit, candidate.center));
-        report(sphere, scene.corners(triangle), candidate, center, hit);
+        report(sphere, candidate, side_of(scene.corners(triangle), candidate), center, hit);
         kept.add(hit);
         return limit;
     });
@@ -166,7 +77,7 @@ std::size_t sphere_contacts(const Scene<Scalar>& scene, const Vec3<Scalar>& cent
         SphereCandidate candidate;
         if (!test(triangle, candidate) || is_anothers(query, candidate, test)) return 1.0;
         SphereHit<Scalar> hit;
-        report(sphere, scene.corners(triangle), candidate, at, hit);
+        report(sphere, candidate, side_of(scene.corners(triangle), candidate), at, hit);
         kept.add(hit);
         return 1.0;
     });

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <query/parts.h>
+#include <query/sinks.h>
 #include <world/engine.h>
+#include <world/places.h>
 
 namespace pierce::detail {
 
@@ -13,6 +15,7 @@ std::size_t first_hits(const WorldScene<Scalar>& world, const Ways<Scalar>& ways
                        std::size_t& invalid) {
     const auto* const optionals = std::get_if<std::span<std::optional<WorldHit<Scalar>>>>(&out);
     const auto* const plain = std::get_if<std::span<WorldHit<Scalar>>>(&out);
+    const auto* const arrays = std::get_if<WorldHitArrays<Scalar>>(&out);
     std::size_t hits = 0;
     for (std::size_t i = first; i < last; ++i) {
         std::optional<WorldHit<Scalar>> hit;
@@ -21,10 +24,15 @@ std::size_t first_hits(const WorldScene<Scalar>& world, const Ways<Scalar>& ways
         else if (is_limit(options.max_fraction))
             hit = ways.with(i, [&](const auto& way) { return first_hit(world, way, options, counters); });
         if (hit) ++hits;
-        if (optionals != nullptr)
+        const WorldHit<Scalar>& answer = hit ? *hit : no_world_hit<Scalar>;
+        if (optionals != nullptr) {
             (*optionals)[i] = hit;
-        else
-            (*plain)[i] = hit ? *hit : no_world_hit<Scalar>;
+        } else if (plain != nullptr) {
+            (*plain)[i] = answer;
+        } else {
+            ArraysOfHits<Scalar>{arrays->hits}.scatter(i, answer.hit);
+            if (arrays->mesh != nullptr) arrays->mesh[i] = answer.mesh;
+        }
     }
     return hits;
 }

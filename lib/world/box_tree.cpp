@@ -47,33 +47,31 @@ void set_leaf(Node& node, const Box& box, double slack) {
 
 }  // namespace
 
-std::int32_t BoxTree::take_node() {
-    if (free_ != k_none) {
-        const std::int32_t index = free_;
-        free_ = at(index).left;
-        return index;
+// There is always a joint for each leaf but one: so where there is a place for a leaf, or one was made, there is one
+// for its joint as well.
+std::int32_t BoxTree::take_node(Kind kind) {
+    if (free_[kind] == k_none) {
+        fours_.resize(nodes_.size() / 2 + 1);
+        nodes_.resize(nodes_.size() + 2);
+        const auto last = static_cast<std::int32_t>(nodes_.size()) - 1;
+        give_back(last - 1);
+        give_back(last);
     }
-    nodes_.push_back({});
-    return static_cast<std::int32_t>(nodes_.size() - 1);
+    const std::int32_t index = free_[kind];
+    free_[kind] = at(index).left;
+    return index;
 }
 
 void BoxTree::give_back(std::int32_t index) noexcept {
-    at(index).left = free_;
+    std::int32_t& first = free_[static_cast<std::size_t>(index) % 2];
+    at(index).left = first;
     at(index).parent = k_none;
-    free_ = index;
+    first = index;
 }
 
 std::int32_t BoxTree::insert(const Box& box, double slack, std::uint32_t number) {
-    const std::int32_t leaf = take_node();
-    std::int32_t joint = k_none;
-    if (root_ != k_none) {
-        try {
-            joint = take_node();
-        } catch (...) {
-            give_back(leaf);
-            throw;
-        }
-    }
+    const std::int32_t leaf = take_node(k_leaf);
+    const std::int32_t joint = root_ != k_none ? take_node(k_joint) : k_none;
     set_leaf(at(leaf), box, slack);
     at(leaf).left = k_none;
     at(leaf).right = static_cast<std::int32_t>(number);
@@ -159,7 +157,8 @@ void BoxTree::put_in_place_of(std::int32_t old, std::int32_t other, std::int32_t
 void BoxTree::mend_upwards(std::int32_t index) {
     for (; index != k_none; index = node(index).parent) {
         fit(index);
-        rotate(index);
+        if (const std::int32_t changed = rotate(index); changed != k_none) gather(changed);
+        gather(index);
     }
 }
 
@@ -174,8 +173,9 @@ void BoxTree::fit(std::int32_t index) {
     here.slack = std::max(left.slack, right.slack);
 }
 
-// Of the four ways to swap a child with a child of the other one, the one that takes most off the other's area.
-void BoxTree::rotate(std::int32_t index) {
+// Of the four ways to swap a child with a child of the other one, the one that takes most off the other's area. Returns
+// the other, if any.
+std::int32_t BoxTree::rotate(std::int32_t index) {
     const Node& here = node(index);
     double most = 0;
     std::int32_t child = k_none;
@@ -191,15 +191,44 @@ void BoxTree::rotate(std::int32_t index) {
             grandchild = out;
         }
     }
-    if (child != k_none) swap_places(child, grandchild);
-}
-
-void BoxTree::swap_places(std::int32_t child, std::int32_t grandchild) {
-    const std::int32_t top = node(child).parent;
+    if (child == k_none) return k_none;
     const std::int32_t joint = node(grandchild).parent;
-    put_in_place_of(child, grandchild, top);
+    put_in_place_of(child, grandchild, index);
     put_in_place_of(grandchild, child, joint);
     fit(joint);
+    return joint;
+}
+
+// Of the nodes so far the largest that is no leaf gives way to its children, as long as there is room: what is met most
+// often is then told apart.
+void BoxTree::gather(std::int32_t index) {
+    Four& four = fours_[static_cast<std::size_t>(index) / 2];
+    std::array<std::int32_t, 4> nodes{node(index).left, node(index).right};
+    std::size_t count = 2;
+    for (; count < nodes.size(); ++count) {
+        std::size_t largest = count;
+        double most = -1;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double area = node(nodes[i]).leaf() ? -2 : area_of(node(nodes[i]));
+            if (area <= most) continue;  // one that is NaN is opened
+            most = area;
+            largest = i;
+        }
+        if (largest == count || node(nodes[largest]).leaf()) break;
+        const Node& opened = node(nodes[largest]);
+        nodes[count] = opened.right;
+        nodes[largest] = opened.left;
+    }
+    four.count = static_cast<std::int32_t>(count);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const bool there = i < count;
+        const Node& below = node(there ? nodes[i] : nodes[0]);
+        four.child[i] = !there ? k_none : below.leaf() ? leaf_of(below.right) : nodes[i];
+        for (std::size_t k = 0; k < 3; ++k) {
+            four.bounds[k][i] = below.low[k] - static_cast<double>(below.slack);
+            four.bounds[3 + k][i] = below.high[k] + static_cast<double>(below.slack);
+        }
+    }
 }
 
 std::size_t BoxTree::depth() const noexcept {

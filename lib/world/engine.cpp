@@ -2,36 +2,13 @@
 #include <world/engine.h>
 
 #include <query/counting.h>
-#include <query/engine.h>
 #include <query/traverse.h>
 #include <world/answer.h>
+#include <world/first_search.h>
+#include <world/near.h>
 #include <world/way_path.h>
 
 namespace pierce::detail {
-
-namespace {
-
-/// The first hit of one mesh.
-template <class Scalar>
-struct Searched {
-    Searched(const WorldScene<Scalar>& world, std::uint32_t at, const Path& image, const WorldOptions& options,
-             double limit, QueryCounters& counters)
-        : index(at),
-          local(image),
-          collector(world.instances[at], options.mask, local, limit, counters),
-          here(options_in(options, world.id_of(at))) {}
-    Searched(const Searched&) = delete;
-    Searched& operator=(const Searched&) = delete;
-
-    [[nodiscard]] Found found() const { return {index, collector.best()}; }
-
-    std::uint32_t index;
-    Path local;
-    FirstHere<Scalar> collector;
-    QueryOptions here;
-};
-
-}  // namespace
 
 template <class Scalar, class Way>
 std::optional<WorldHit<Scalar>> first_hit(const WorldScene<Scalar>& world, const Way& way, const WorldOptions& options,
@@ -39,25 +16,22 @@ std::optional<WorldHit<Scalar>> first_hit(const WorldScene<Scalar>& world, const
     std::optional<WorldHit<Scalar>> hit;
     Path path;
     if (!set_path(world, way, options.max_fraction, path)) return hit;
-    std::array<std::optional<Searched<Scalar>>, 2> rooms;
-    std::size_t best = 0;
-    bool found = false;
-    each_image(world, path, options.mask, std::min(1.0, path.most), counters,
-               [&](std::uint32_t index, const Instance<Scalar>& instance, const Path& local, double limit) {
-                   Searched<Scalar>& search = rooms[1 - best].emplace(world, index, local, options, limit, counters);
-                   traverse<Certified>(*instance.scene, search.local, search.here, counters, search.collector);
-                   if (!search.collector.found()) return limit;
-                   if (found && !comes_before(world, path, search.found(), rooms[best]->found(), counters))
-                       return limit;
-                   found = true;
-                   best = 1 - best;
-                   return std::min(limit, search.collector.best().latest);
+    const auto known = [](TriangleRef) { return false; };
+    FirstSearch<Scalar, decltype(known)> search;
+    const double near = near_of(world, path);
+    WorldShortlist list;
+    each_image(world, path, 2 * near, options.mask, std::min(1.0, path.most), counters,
+               [&](std::uint32_t index, const Instance<Scalar>& instance, const Path& image, double limit) {
+                   auto& here = search.next(world, index, image, options, limit, known, counters);
+                   traverse_near(*instance.scene, here.local, near, here.options, counters, here.collector, index,
+                                 list);
+                   return search.take(world, path, limit, counters);
                });
-    if (!found) return hit;
-    const Searched<Scalar>& first = *rooms[best];
+    if (!search.found()) return hit;
+    const auto& first = search.first();
     const auto none = [](std::uint32_t, TriangleRef) { return false; };
-    answer(world, path, {first.index, first.local, first.collector.best(), &first.collector.list()}, none, options,
-           counters, hit.emplace());
+    answer(world, path, {first.index, first.local, first.collector.best(), &list}, none, options, counters,
+           hit.emplace());
     return hit;
 }
 
@@ -108,20 +82,6 @@ int crossings(const WorldScene<Scalar>& world, const Way& way, std::uint32_t mas
     return sum;
 }
 
-template <class Scalar>
-int winding_number(const WorldScene<Scalar>& world, const Vec3<Scalar>& at, std::uint32_t mask,
-                   QueryCounters& counters) {
-    const Point point = to_point(at);
-    int sum = 0;
-    each_instance(world, Path{point, point}, mask, 1, counters,
-                  [&](std::uint32_t, const Instance<Scalar>& instance, double limit) {
-                      const Point image = image_of<Scalar>(instance.placement, point);
-                      if (are_finite(image)) sum += winding_number(*instance.scene, to_vector<Scalar>(image), counters);
-                      return limit;
-                  });
-    return sum;
-}
-
 #define PIERCE_QUERIES(Scalar, Way)                                                                            \
     template std::optional<WorldHit<Scalar>> first_hit(const WorldScene<Scalar>&, const Way<Scalar>&,          \
                                                        const WorldOptions&, QueryCounters&);                   \
@@ -134,7 +94,5 @@ PIERCE_QUERIES(float, Ray);
 PIERCE_QUERIES(double, Segment);
 PIERCE_QUERIES(double, Ray);
 #undef PIERCE_QUERIES
-template int winding_number(const WorldScene<float>&, const Vec3<float>&, std::uint32_t, QueryCounters&);
-template int winding_number(const WorldScene<double>&, const Vec3<double>&, std::uint32_t, QueryCounters&);
 
 }  // namespace pierce::detail

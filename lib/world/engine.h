@@ -25,8 +25,4 @@ template <class Scalar, class Way>
 [[gnu::noinline]] int crossings(const WorldScene<Scalar>& world, const Way& way, std::uint32_t mask,
                                 QueryCounters& counters);
 
-template <class Scalar>
-[[gnu::noinline]] int winding_number(const WorldScene<Scalar>& world, const Vec3<Scalar>& point, std::uint32_t mask,
-                                     QueryCounters& counters);
-
 }  // namespace pierce::detail

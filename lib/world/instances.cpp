@@ -58,12 +58,14 @@ void WorldScene<Scalar>::put(std::uint32_t index, std::shared_ptr<const void> ow
         instance.leaf = BoxTree::k_none;
         instance.grain = 0;
     } else {
-        const Extent extent = extent_of(scene, placement);
+        Extent extent = extent_of(scene, placement);
+        const double grain = grain_at(scene, placement, extent.largest);
+        extent.slack += near_margin(grain);  // near.h
         if (instance.leaf == BoxTree::k_none)
             instance.leaf = tree.insert(extent.box, extent.slack, index);  // may throw
         else
             tree.move(instance.leaf, extent.box, extent.slack);
-        instance.grain = grain_at(scene, placement, extent.largest);
+        instance.grain = grain;
     }
     const auto counted = [](const Placement& p) { return p.stand != Stand::still ? std::size_t{1} : 0; };
     if (instance.owner != nullptr) posed -= counted(instance.placement);

@@ -6,26 +6,30 @@
 
 namespace pierce::detail {
 
-/// A hit in a mesh of a world.
+/// A hit in a mesh of a world, or another meeting (query/meets.h).
 struct Found {
+    template <class Met>
+    Found(std::uint32_t in, const Met& met) : index(in), filtered(met), triangle(met.triangle) {}
+
     std::uint32_t index;
-    const Candidate& candidate;
+    const Filtered& filtered;
+    TriangleRef triangle;
 };
 
 /// -1, 0 or 1. `path`: in the world.
 template <class Scalar>
 [[nodiscard]] int compare_exactly(const WorldScene<Scalar>& world, const Path& path, const Found& x, const Found& y,
                                   QueryCounters& counters) {
-    if (x.candidate.latest < y.candidate.earliest) return -1;
-    if (y.candidate.latest < x.candidate.earliest) return 1;
+    if (x.filtered.latest < y.filtered.earliest) return -1;
+    if (y.filtered.latest < x.filtered.earliest) return 1;
     const Instance<Scalar>& one = world.instances[x.index];
     const Instance<Scalar>& other = world.instances[y.index];
-    const Corners first = one.scene->corners(x.candidate.triangle);
-    const Corners second = other.scene->corners(y.candidate.triangle);
+    const Corners first = one.scene->corners(x.triangle);
+    const Corners second = other.scene->corners(y.triangle);
     Path local;
     if (!set_local_path(one, path, local)) return 0;  // not where a hit was found
     if (x.index == y.index || (one.still() && other.still()))
-        return order_of_places(local, first, x.candidate.decision, second, y.candidate.decision, counters);
+        return order_of_places(local, first, x.filtered.decision, second, y.filtered.decision, counters);
     Path local_of_other;
     if (!set_local_path(other, path, local_of_other)) return 0;
     ++counters.exact_orders;
@@ -39,10 +43,10 @@ template <class Scalar>
     if (order != 0) return order < 0;
     if (x.index != y.index) return x.index < y.index;
     const Scene<Scalar>& scene = *world.instances[x.index].scene;
-    const std::uint32_t face_x = scene.face_of(x.candidate.triangle);
-    const std::uint32_t face_y = scene.face_of(y.candidate.triangle);
+    const std::uint32_t face_x = scene.face_of(x.triangle);
+    const std::uint32_t face_y = scene.face_of(y.triangle);
     if (face_x != face_y) return face_x < face_y;
-    return scene.number_of(x.candidate.triangle) < scene.number_of(y.candidate.triangle);
+    return scene.number_of(x.triangle) < scene.number_of(y.triangle);
 }
 
 }  // namespace pierce::detail

@@ -9,25 +9,16 @@
 
 #include <query/place.h>
 #include <query/traverse.h>
-#include <world/collectors.h>
+#include <world/first_search.h>
 
 namespace pierce::detail {
 
-/// The options of a query as one mesh understands them; `options` must live as long.
-[[nodiscard]] inline QueryOptions options_in(const WorldOptions& options, MeshId mesh) {
-    QueryOptions here;
-    here.sides = options.sides;
-    if (options.accept)
-        here.accept = [accept = &options.accept, mesh](const Contact& contact) { return (*accept)(mesh, contact); };
-    return here;
-}
-
-/// Calls `use(index, instance, limit)` for each mesh that counts and that a way may come to up to `limit`. It returns
-/// what each_box asks for.
+/// Calls `use(index, instance, limit)` for each mesh that counts and that a way, or a ball on it, may come to up to
+/// `limit`. It returns what each_box asks for.
 template <class Scalar, class Use>
-void each_instance(const WorldScene<Scalar>& world, const Path& path, std::uint32_t mask, double limit,
+void each_instance(const WorldScene<Scalar>& world, const Path& path, double radius, std::uint32_t mask, double limit,
                    QueryCounters& counters, Use&& use) {
-    const BoxProbe probe(path, world.noise());
+    const BoxProbe probe(path, world.noise(), radius);
     each_box(world.tree, probe, limit, counters, [&](std::uint32_t index, double so_far) {
         const Instance<Scalar>& instance = world.instances[index];
         return (instance.layers & mask) != 0 ? use(index, instance, so_far) : so_far;
@@ -36,13 +27,18 @@ void each_instance(const WorldScene<Scalar>& world, const Path& path, std::uint3
 
 /// The same with the way's image, for meshes where it is finite: `use(index, instance, local, limit)`.
 template <class Scalar, class Use>
-void each_image(const WorldScene<Scalar>& world, const Path& path, std::uint32_t mask, double limit,
+void each_image(const WorldScene<Scalar>& world, const Path& path, double radius, std::uint32_t mask, double limit,
                 QueryCounters& counters, Use&& use) {
-    each_instance(world, path, mask, limit, counters,
+    each_instance(world, path, radius, mask, limit, counters,
                   [&](std::uint32_t index, const Instance<Scalar>& instance, double so_far) {
                       Path local;
                       return set_local_path(instance, path, local) ? use(index, instance, local, so_far) : so_far;
                   });
+}
+template <class Scalar, class Use>
+void each_image(const WorldScene<Scalar>& world, const Path& path, std::uint32_t mask, double limit,
+                QueryCounters& counters, Use&& use) {
+    each_image(world, path, 0, mask, limit, counters, std::forward<Use>(use));
 }
 
 /// The hit whose point is looked for.
@@ -50,7 +46,7 @@ struct OwnHit {
     std::uint32_t index;  ///< of the instance
     const Path& local;    ///< the path there
     const Candidate& candidate;
-    const Shortlist* list;  ///< of that path; null: none was kept
+    const WorldShortlist* list;  ///< of the world's path; null: none was kept
 };
 
 /// `passed(index, triangle)` says which triangles are hit strictly before the hit, and so don't count.
@@ -77,55 +73,95 @@ class WorldWays {
 
     [[nodiscard]] bool hides(const Point&) const { return false; }
     [[nodiscard]] bool clear(const Point& point, bool near) const {
-        Stop unused;
-        return !stopped(point, near, unused);
+        Point there;
+        if (!leads_to(point, there)) return false;
+        bool found = false;
+        each_way(Path{from_, there}, near, [&](std::uint32_t index, const Path& way, List few, double) {
+            const auto passed = [&](TriangleRef triangle) { return is_known(index, triangle); };
+            AnyHere any(world_.instances[index], options_.mask, passed);
+            test(index, way, options_in(options_, world_.id_of(index)), few, any);
+            found = any.found();
+            return found ? -1.0 : 1.0;
+        });
+        if (!found) chosen_ = there;
+        return !found;
     }
+    /// In the coordinates of the mesh that is hit: rounded where what stops is another's. The first that stops, which
+    /// does not depend on the order of the boxes.
     [[nodiscard]] bool stops(const Point& point, Corners& corners, Decision& decision) const {
-        Stop stop;
-        if (!stopped(point, true, stop)) return false;
-        corners = stop.corners;
-        decision = stop.decision;
+        Point there;
+        corners = instance_.scene->corners(own_.candidate.triangle);
+        decision = own_.candidate.decision;
+        if (!leads_to(point, there)) return true;
+        const Path path{from_, there};
+        std::uint32_t now = 0;
+        const auto known = [&](TriangleRef triangle) { return is_known(now, triangle); };
+        FirstSearch<Scalar, decltype(known)> search;
+        each_way(path, true, [&](std::uint32_t index, const Path& way, List few, double limit) {
+            now = index;
+            auto& here = search.next(world_, index, way, options_, limit, known, counters_);
+            test(index, here.local, here.options, few, here.collector);
+            return search.take(world_, path, limit, counters_);
+        });
+        if (!search.found()) {
+            chosen_ = there;
+            return false;
+        }
+        const Found first = search.first().found();
+        corners = in_own(first.index, world_.instances[first.index].scene->corners(first.triangle));
+        decision = first.filtered.decision;
         return true;
     }
     /// In the world: the last point that was clear.
     [[nodiscard]] const Point& chosen() const { return chosen_; }
 
   private:
-    /// What is in the way, in the coordinates of the mesh that is hit: rounded where it is another's.
-    struct Stop {
-        Corners corners;
-        Decision decision;
-    };
-
-    [[nodiscard]] bool stopped(const Point& point, bool near, Stop& stop) const {
-        const Point there = instance_.still() ? point : rounded_image<Scalar>(out_of(instance_.placement, point));
+    /// The world's point for one that is looked for. False: it is none, or its image is not off the hit's own plane.
+    [[nodiscard]] bool leads_to(const Point& point, Point& there) const {
+        there = instance_.still() ? point : rounded_image<Scalar>(out_of(instance_.placement, point));
         const Point image = image_of<Scalar>(instance_.placement, there);
-        const bool stops =
-            !are_finite(there, image) || is_stopped_in_own(image, near, stop) || is_stopped_in_others(there, stop);
-        if (!stops) chosen_ = there;
-        return stops;
+        return are_finite(there, image) && (instance_.still() || is_off_own_plane(image));
     }
+    [[nodiscard]] bool is_known(std::uint32_t index, TriangleRef triangle) const {
+        return (index == own_.index && triangle == own_.candidate.triangle) || passed_(index, triangle);
+    }
+    /// Those of one mesh; empty: all of its triangles are asked about.
+    using List = std::span<const WorldShortlist::Entry>;
 
-    [[nodiscard]] bool is_stopped_in_own(const Point& image, bool near, Stop& stop) const {
-        const Scene<Scalar>& scene = *instance_.scene;
-        const TriangleRef own = own_.candidate.triangle;
-        if (!instance_.still() && !is_off_own_plane(image)) {
-            stop = {scene.corners(own), own_.candidate.decision};
-            return true;
+    /// Calls `use(index, image, few, limit)` for the meshes that a way may come to; it returns the limit.
+    template <class Use>
+    void each_way(const Path& path, bool near, Use&& use) const {
+        if (!near || own_.list == nullptr || !own_.list->complete)
+            return each_image(world_, path, options_.mask, 1, counters_,
+                              [&](std::uint32_t index, const Instance<Scalar>&, const Path& way, double limit) {
+                                  return use(index, way, List{}, limit);
+                              });
+        const List all = List(own_.list->entries).first(own_.list->count);
+        double limit = 1;
+        for (std::size_t i = 0, end = 0; i < all.size() && limit >= 0; i = end) {
+            const std::uint32_t index = all[i].index;
+            while (end < all.size() && all[end].index == index) ++end;
+            Path way;
+            if (set_local_path(world_.instances[index], path, way))
+                limit = use(index, way, all.subspan(i, end - i), limit);
         }
-        const Path way{own_.local.from, image};
-        const QueryOptions options = options_in(options_, world_.id_of(own_.index));
-        const auto passed = [&](TriangleRef triangle) { return passed_(own_.index, triangle); };
-        AnyHere any(instance_, options_.mask, passed, own);
-        // The list holds what is within the mesh's own grain of the path.
-        if (near && instance_.still() && own_.list != nullptr && own_.list->complete) {
-            for (unsigned i = 0; i < own_.list->count && !any.found(); ++i)
-                test_triangle<Certified>(scene, way, own_.list->triangles[i], options, counters_, any);
-        } else {
-            traverse<Certified>(scene, way, options, counters_, any);
+    }
+    template <class Collector>
+    void test(std::uint32_t index, const Path& way, const QueryOptions& options, List few, Collector& collector) const {
+        const Scene<Scalar>& scene = *world_.instances[index].scene;
+        if (few.empty()) return traverse<Certified>(scene, way, options, counters_, collector);
+        for (const auto& [mesh, triangle] : few)
+            test_triangle<Certified>(scene, way, triangle, options, counters_, collector);
+    }
+    [[nodiscard]] Corners in_own(std::uint32_t index, Corners corners) const {
+        if (index == own_.index) return corners;
+        for (Point& corner : corners) {
+            corner = out_of(world_.instances[index].placement, corner);
+            if (instance_.still()) continue;
+            for (std::size_t k = 0; k < 3; ++k) corner[k] -= instance_.placement.translation[k];
+            corner = turned_back(instance_.placement, corner);
         }
-        if (any.found()) stop = {scene.corners(any.candidate().triangle), any.candidate().decision};
-        return any.found();
+        return corners;
     }
 
     [[nodiscard]] bool is_off_own_plane(const Point& image) const {
@@ -134,29 +170,6 @@ class WorldWays {
         ++counters_.exact_sides;
         return is_far_enough(instance_.scene->corners(own_.candidate.triangle), own_.local.from, image,
                              instance_.grain / 2);
-    }
-
-    [[nodiscard]] bool is_stopped_in_others(const Point& there, Stop& stop) const {
-        bool found = false;
-        const auto look = [&](std::uint32_t index, const Instance<Scalar>& instance, const Path& local,
-                              double) -> double {
-            if (index == own_.index) return 1;
-            const auto passed = [&](TriangleRef triangle) { return passed_(index, triangle); };
-            AnyHere any(instance, options_.mask, passed);
-            traverse<Certified>(*instance.scene, local, options_in(options_, world_.id_of(index)), counters_, any);
-            if (!any.found()) return 1;
-            found = true;
-            stop = {instance.scene->corners(any.candidate().triangle), any.candidate().decision};
-            for (Point& corner : stop.corners) {
-                corner = out_of(instance.placement, corner);
-                if (instance_.still()) continue;
-                for (std::size_t k = 0; k < 3; ++k) corner[k] -= instance_.placement.translation[k];
-                corner = turned_back(instance_.placement, corner);
-            }
-            return -1;
-        };
-        each_image(world_, Path{from_, there}, options_.mask, 1, counters_, look);
-        return found;
     }
 
     const WorldScene<Scalar>& world_;

@@ -1,13 +1,11 @@
-// The façade of worlds: changes, and single queries.
+// The façade of worlds: what is in them, and single queries.
 #include <pierce/world.h>
 
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include <environment.h>
 #include <query/along.h>
-#include <query/inside.h>
 #include <world/engine.h>
 #include <world/world_impl.h>
 
@@ -23,12 +21,6 @@ int crossings_along(const Impl& impl, const Way& way, const WorldCountOptions& o
     Counters counters(options.counters);
     if (!impl.valid(way)) return 0;
     return detail::crossings(impl.scene, way, options.mask, counters);
-}
-
-template <class Impl>
-std::uint32_t index_of(const Impl& impl, MeshId id) {
-    if (!impl.scene.holds(id)) throw std::invalid_argument("the world has no mesh of this MeshId: it is stale");
-    return id.index;
 }
 
 template <class Scalar>
@@ -56,54 +48,6 @@ template <class Scalar>
 World<Scalar>::World(World&& other) noexcept = default;
 template <class Scalar>
 World<Scalar>& World<Scalar>::operator=(World&& other) noexcept = default;
-
-template <class Scalar>
-MeshId World<Scalar>::add(Mesh mesh, const InstanceOptions<Scalar>& options) {
-    const StandardArithmetic standard;
-    if (mesh == nullptr) throw std::invalid_argument("a mesh for a world is null");
-    Instance<Scalar> instance;
-    instance.scene = &Inside::of(*mesh).scene;
-    instance.owner = std::move(mesh);
-    instance.placement = make_placement(options.pose);
-    instance.layers = options.layers;
-    instance.face_layers = options.face_layers;
-    return impl_->scene.id_of(impl_->scene.add(std::move(instance)));
-}
-
-template <class Scalar>
-bool World<Scalar>::remove(MeshId id) noexcept {
-    const StandardArithmetic standard;
-    if (!impl_->scene.holds(id)) return false;
-    impl_->scene.remove(id.index);
-    return true;
-}
-
-template <class Scalar>
-void World<Scalar>::replace(MeshId id, Mesh mesh) {
-    const StandardArithmetic standard;
-    const std::uint32_t index = index_of(*impl_, id);
-    if (mesh == nullptr) throw std::invalid_argument("a mesh for a world is null");
-    const Scene<Scalar>& scene = Inside::of(*mesh).scene;
-    impl_->scene.put(index, std::move(mesh), scene, impl_->scene.instances[index].placement);
-}
-
-template <class Scalar>
-void World<Scalar>::set_pose(MeshId id, const Pose<Scalar>& pose) {
-    const StandardArithmetic standard;
-    const std::uint32_t index = index_of(*impl_, id);
-    const Instance<Scalar>& instance = impl_->scene.instances[index];
-    impl_->scene.put(index, instance.owner, *instance.scene, make_placement(pose));
-}
-
-template <class Scalar>
-void World<Scalar>::set_layers(MeshId id, std::uint32_t layers) {
-    impl_->scene.instances[index_of(*impl_, id)].layers = layers;
-}
-
-template <class Scalar>
-void World<Scalar>::set_face_layers(MeshId id, std::shared_ptr<const std::vector<std::uint32_t>> face_layers) {
-    impl_->scene.instances[index_of(*impl_, id)].face_layers = std::move(face_layers);
-}
 
 template <class Scalar>
 bool World<Scalar>::holds(MeshId id) const noexcept {
@@ -168,19 +112,6 @@ std::size_t World<Scalar>::all_hits_of_ray(const Ray<Scalar>& ray, std::span<Wor
 template <class Scalar>
 int World<Scalar>::crossings_of_ray(const Ray<Scalar>& ray, const WorldCountOptions& options) const noexcept {
     return crossings_along(*impl_, ray, options);
-}
-
-template <class Scalar>
-int World<Scalar>::winding_number(const Vec3<Scalar>& point, const WorldCountOptions& options) const noexcept {
-    const StandardArithmetic standard;
-    Counters counters(options.counters);
-    if (!impl_->valid(point)) return 0;
-    return detail::winding_number(impl_->scene, point, options.mask, counters);
-}
-
-template <class Scalar>
-bool World<Scalar>::contains(const Vec3<Scalar>& point, const WorldCountOptions& options) const noexcept {
-    return winding_number(point, options) != 0;
 }
 
 template <class Scalar>

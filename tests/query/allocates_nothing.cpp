@@ -5,8 +5,8 @@
 
 #include <pierce/deforming_mesh.h>
 #include <pierce/regions.h>
-#include <pierce/world.h>
 #include <pierce/response.h>
+#include <pierce/world.h>
 #include <query/batch_world.h>
 #include <support/executors.h>
 #include <support/own_new.h>
@@ -102,6 +102,18 @@ void check() {
         for (std::size_t i = 0; i < segments.size(); i += 25)
             any[i] =
                 world.all_hits(segments[i], world_all, world_options) > 3 && world.contains(segments[i].to) ? 1 : 0;
+        std::array<WorldPassage<Scalar>, 8> world_passages;
+        std::array<WorldSphereHit<Scalar>, 8> world_contacts;
+        std::array<WorldTouch, 8> world_touches;
+        std::array<MeshId, 8> world_meshes;
+        for (std::size_t i = 0; i < segments.size(); i += 25) {
+            const std::size_t count = world.passages(segments[i], world_passages) +
+                                      world.locate(segments[i].to, world_touches).face_count +
+                                      world.containing(segments[i].to, world_meshes) +
+                                      world.sphere_hits(segments[i], Scalar(0.1), world_contacts) +
+                                      std::size_t{world.sweep_sphere(segments[i], Scalar(0.1)).has_value()};
+            any[i] = count > 3 ? 1 : 0;
+        }
         for (std::size_t i = 0; i < 20; ++i) world.set_pose({static_cast<std::uint32_t>(i), 1}, {});
     });
     std::vector<Vec3<Scalar>> points;

@@ -245,6 +245,32 @@ void add_worlds(Hash& hash, const TriangleSoup<double>& unit, double offset, int
         hash.add(static_cast<std::uint64_t>(world.crossings(segment)));
         hash.add(static_cast<std::uint64_t>(world.crossings(ray)));
         hash.add(static_cast<std::uint64_t>(world.winding_number(segment.to)));
+        if (i % 8 != 0) continue;
+        const auto add_number = [&hash](Scalar x) {
+            hash.add(std::bit_cast<std::conditional_t<sizeof(Scalar) == 4, std::uint32_t, std::uint64_t>>(x));
+        };
+        std::array<WorldPassage<Scalar>, 6> passages;
+        const std::size_t met = world.passages(segment, passages);
+        hash.add(met);
+        for (std::size_t k = 0; k < std::min(met, passages.size()); ++k) {
+            hash.add(passages[k].mesh.index);
+            hash.add(passages[k].passage.triangle);
+            hash.add(passages[k].passage.first_face);
+            add_number(passages[k].passage.fraction);
+            for (int j = 0; j < 3; ++j) add_number(passages[k].passage.position[j]);
+        }
+        hash.add(world.locate(segment.from).face_count);
+        hash.add(world.containing(segment.from, {}));
+        const Segment<Scalar> step{segment.from, segment.from + ray.direction / 8};
+        if (const auto hit = world.sweep_sphere(step, Scalar(0.1))) {
+            hash.add(hit->mesh.index);
+            hash.add(hit->hit.triangle);
+            add_number(hit->hit.fraction);
+            add_number(hit->hit.overlap);
+            for (int j = 0; j < 3; ++j) add_number(hit->hit.center[j]);
+            for (int j = 0; j < 3; ++j) add_number(hit->hit.normal[j]);
+        }
+        hash.add(world.sphere_contacts(segment.from, Scalar(0.5), {}));
     }
 }
 

@@ -38,6 +38,11 @@ TYPED_TEST(WorldChanges, an_empty_world_answers_nothing) {
     EXPECT_EQ(world.crossings(segment), 0);
     EXPECT_EQ(world.winding_number(segment.from), 0);
     EXPECT_FALSE(world.contains(segment.from));
+    EXPECT_EQ(world.containing(segment.from, {}), 0U);
+    EXPECT_EQ(world.locate(segment.from).place, Place::outside);
+    EXPECT_EQ(world.passages(segment, {}), 0U);
+    EXPECT_FALSE(world.sweep_sphere(segment, TypeParam(1)));
+    EXPECT_TRUE(world.explain(segment).empty());
     EXPECT_FALSE(world.first_hit(Ray<TypeParam>{segment.from, segment.to}));
     EXPECT_EQ(world.size(), 0U);
     EXPECT_FALSE(world.holds({}));
@@ -108,6 +113,33 @@ TYPED_TEST(WorldChanges, what_is_refused_changes_nothing) {
     ASSERT_TRUE(before && after);
     EXPECT_TRUE(same_bits(before->hit, after->hit));
     EXPECT_EQ(after->mesh, id);
+}
+
+TYPED_TEST(WorldChanges, the_same_is_said_without_exceptions) {
+    World<TypeParam> world;
+    const auto added = world.try_add(this->cube(), this->at(4, 0, 0));
+    ASSERT_TRUE(added);
+    EXPECT_EQ(world.first_hit(this->along_x(-9, 9))->mesh, added.value);
+    Pose<TypeParam> bad;
+    bad.rotation *= TypeParam(2);
+    for (const auto& refused :
+         {world.try_add(nullptr), world.try_add(this->cube(), {.pose = bad}), world.try_replace(added.value, nullptr),
+          world.try_set_pose(added.value, bad), world.try_set_pose({7, 1}, {}), world.try_replace({7, 1}, this->cube()),
+          world.try_set_layers({7, 1}, 1), world.try_set_face_layers({7, 1}, nullptr)}) {
+        EXPECT_EQ(refused.status, Status::bad_argument);
+        EXPECT_EQ(refused.value, MeshId{});
+        EXPECT_FALSE(refused.message.empty());
+    }
+    EXPECT_EQ(world.size(), 1U);
+    EXPECT_EQ(world.try_set_pose(added.value, {}).value, added.value);
+    EXPECT_EQ(world.to_mesh(added.value, Vec3<TypeParam>(1, 2, 3)), Vec3<TypeParam>(1, 2, 3));
+    EXPECT_TRUE(world.try_set_layers(added.value, 2));
+    EXPECT_FALSE(world.any_hit(this->along_x(-9, 9), {.mask = 1}));
+    EXPECT_TRUE(world.try_set_face_layers(added.value, std::make_shared<const std::vector<std::uint32_t>>()));
+    EXPECT_FALSE(world.any_hit(this->along_x(-9, 9)));
+    EXPECT_TRUE(world.try_set_face_layers(added.value, nullptr));
+    EXPECT_TRUE(world.try_replace(added.value, this->cube(6)));
+    EXPECT_TRUE(world.any_hit(this->along_x(-9, 9, 2.5)));
 }
 
 TYPED_TEST(WorldChanges, a_mesh_is_shared_and_lives_as_long_as_it_is_used) {
@@ -270,6 +302,46 @@ TYPED_TEST(WorldChanges, answers_do_not_depend_on_how_the_world_came_about) {
         EXPECT_TRUE(same_bits(x->hit, y->hit));
     }
     EXPECT_GT(hits, 1000U);
+}
+
+// The same where points have to be looked for: between many meshes, each of which may be what stops the next try.
+TYPED_TEST(WorldChanges, points_in_corners_do_not_depend_on_how_the_world_came_about) {
+    using Scalar = TypeParam;
+    Random random(5);
+    const auto mesh = shared_mesh(moved<Scalar>(polycube(1, 1, 1, 1), 4, {-2, -2, -2}));
+    std::vector<InstanceOptions<Scalar>> places;
+    for (int i = 0; i < 60; ++i) {
+        places.push_back(this->at(random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)));
+        places.back().pose.rotation = rotation_of<Scalar>(6, random.between_ints(-2, 2), random.between_ints(-2, 2), 1);
+    }
+    World<Scalar> one;
+    std::vector<MeshId> ids;
+    for (const auto& place : places) ids.push_back(one.add(mesh, place));
+    World<Scalar> other;
+    for (std::size_t i = 0; i < places.size(); ++i) (void)other.add(mesh, this->at(double(i), 0, 0));
+    for (std::size_t i = places.size(); i-- > 0;) other.set_pose(ids[i * 7 % 60], places[i * 7 % 60].pose);
+    std::uint64_t retreats = 0;
+    // Along a face, at a grain, into another: beside a valley, and where many cubes cross often beside a third face.
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3<double> from = 3 * random.in_cube();
+        const auto aim =
+            one.first_hit({from.cast<Scalar>(), (9 * random.direction()).cast<Scalar>()}, {.sides = Sides::both});
+        if (!aim) continue;
+        const Vec3<Scalar> at = aim->hit.point;
+        const Vec3<double> n = aim->hit.normal.template cast<double>();
+        const Vec3<double> way = 3 * random.in_cube();
+        const Vec3<double> on = at.template cast<double>() + way - n.dot(way) * n;
+        const Segment<Scalar> segment{at, on.cast<Scalar>()};
+        QueryCounters counters;
+        const auto x = one.first_hit(segment, {.sides = Sides::both, .counters = &counters});
+        const auto y = other.first_hit(segment, {.sides = Sides::both});
+        retreats += counters.retreats;
+        ASSERT_EQ(x.has_value(), y.has_value());
+        if (!x) continue;
+        EXPECT_EQ(x->mesh, y->mesh);
+        EXPECT_TRUE(same_bits(x->hit, y->hit)) << i;
+    }
+    EXPECT_GT(retreats, 50U);
 }
 
 }  // namespace

@@ -59,14 +59,8 @@ class NaiveWorld {
         for (const Member& member : members) {
             if ((member.layers & options.mask) == 0) continue;
             const Segment<Scalar> local = image(member, segment);
-            QueryOptions here{.sides = options.sides, .max_fraction = options.max_fraction};
             std::vector<std::uint8_t> mask;
-            for (const std::uint32_t bits : member.face_layers) mask.push_back((bits & options.mask) != 0 ? 1 : 0);
-            here.face_mask = mask;
-            if (options.accept)
-                here.accept = [&options, id = member.id](const Contact& contact) {
-                    return options.accept(id, contact);
-                };
+            const QueryOptions here = options_in(member, options, mask);
             std::vector<Hit<Scalar>> hits(member.mesh->all_hits(local, {}, here));
             member.mesh->all_hits(local, hits, here);
             for (const Hit<Scalar>& hit : hits)
@@ -78,6 +72,17 @@ class NaiveWorld {
             return x.local.face != y.local.face ? x.local.face < y.local.face : x.local.triangle < y.local.triangle;
         });
         return answers;
+    }
+
+    /// The options as a mesh understands them; `mask` is for what they refer to.
+    [[nodiscard]] QueryOptions options_in(const Member& member, const WorldOptions& options,
+                                          std::vector<std::uint8_t>& mask) const {
+        QueryOptions here{.sides = options.sides, .max_fraction = options.max_fraction};
+        for (const std::uint32_t bits : member.face_layers) mask.push_back((bits & options.mask) != 0 ? 1 : 0);
+        here.face_mask = mask;
+        if (options.accept)
+            here.accept = [&options, id = member.id](const Contact& contact) { return options.accept(id, contact); };
+        return here;
     }
 
     /// Whether the way to a point has a hit in any mesh, by the rule for images.
@@ -103,11 +108,13 @@ class NaiveWorld {
         return answer.local.side == Sides::front ? side : -side;
     }
 
-  private:
+    /// The exact fraction at which a way's image passes through a triangle's plane.
     static mpq_class fraction_of(const Member& member, const Segment<Scalar>& local, std::uint32_t triangle) {
         const mpq_class from = side_of(member, triangle, local.from);
         return from / (from - side_of(member, triangle, local.to));
     }
+
+  private:
     static mpq_class side_of(const Member& member, std::uint32_t triangle, const Vec3<Scalar>& x) {
         using Q = std::array<mpq_class, 3>;
         const auto exact = [](const Vec3<Scalar>& v) { return Q{double(v[0]), double(v[1]), double(v[2])}; };
