@@ -1,0 +1,368 @@
+// Balls that slide and bounce: each way of theirs clear by rational arithmetic, rest to the last bit, no edges where
+// faces go on in one plane, round edges and into corners.
+#include <gtest/gtest.h>
+#include <support/executors.h>
+#include <support/sphere_oracle.h>
+
+#include <point.h>
+
+#include "ramps.h"
+
+namespace pierce::test {
+namespace {
+
+using detail::Corners;
+using detail::to_point;
+
+template <class Scalar>
+class Balls : public ::testing::Test {};
+TYPED_TEST_SUITE(Balls, Both);
+
+template <class Scalar>
+std::vector<Corners> corners_of(const TriangleSoup<Scalar>& soup) {
+    std::vector<Corners> all;
+    for (const IndexTriple& t : soup.triangles)
+        all.push_back({to_point(soup.positions[t[0]]), to_point(soup.positions[t[1]]), to_point(soup.positions[t[2]])});
+    return all;
+}
+
+template <class Scalar>
+bool is_clear(const std::vector<Corners>& triangles, const Vec3<Scalar>& at, Scalar radius) {
+    const SphereOracle oracle({to_point(at), to_point(at)}, static_cast<double>(radius));
+    return std::all_of(triangles.begin(), triangles.end(), [&](const Corners& c) { return oracle.gap(c) >= 0; });
+}
+
+// A move's ways are those from contact to contact, and from the last one to where it ends.
+template <class Scalar>
+int ways_with_a_hit(const std::vector<Corners>& triangles, const Vec3<Scalar>& from, Scalar radius,
+                    const Move<Scalar>& move, std::span<const MoveContact<Scalar>> contacts) {
+    std::vector<Vec3<Scalar>> places{from};
+    for (std::size_t i = 0; i < move.contacts; ++i) places.push_back(contacts[i].point);
+    places.push_back(move.position);
+    int hits = 0;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        if (places[i] == places[i - 1]) continue;
+        const SphereOracle oracle({to_point(places[i - 1]), to_point(places[i])}, static_cast<double>(radius));
+        for (const Corners& c : triangles) hits += oracle.hits(c) ? 1 : 0;
+    }
+    return hits;
+}
+
+TYPED_TEST(Balls, go_ways_that_are_clear) {
+    using Scalar = TypeParam;
+    std::uint64_t seed = 1;
+    for (const double offset : {0.0, 1e3, 1e6})
+        for (const double radius : {0.05, 0.3})
+            for (const TriangleSoup<double>& unit : {polycube(3, 0.8, 1, 3), bumpy_sphere(5), bowl(5)}) {
+                const V middle(offset, offset / 2, -offset);
+                const TriangleSoup<Scalar> soup = moved<Scalar>(unit, 1, middle);
+                const CollisionMesh<Scalar> mesh(soup.view());
+                const std::vector<Corners> triangles = corners_of(soup);
+                const auto r = static_cast<Scalar>(radius);
+                Random random(seed++);
+                Vec3<Scalar> at;
+                int tries = 0;
+                do {
+                    at = V(3 * random.in_cube() + middle).cast<Scalar>();
+                    ASSERT_LT(++tries, 2000);
+                } while (!mesh.contains(at) || !is_clear(triangles, at, r));
+                Vec3<Scalar> velocity = Vec3<Scalar>::Zero();
+                std::array<MoveContact<Scalar>, 32> contacts;
+                int met = 0, hits = 0, undone = 0;
+                constexpr int k_steps = 120;
+                for (int i = 0; i < k_steps; ++i) {
+                    velocity[2] -= Scalar(9.81 / 60);
+                    if (i % 30 == 0) velocity += V(9 * random.in_cube()).cast<Scalar>();
+                    MoveOptions<Scalar> options{.response = {.restitution = Scalar(0.7), .friction = Scalar(0.1)}};
+                    options.radius = r;
+                    const Move<Scalar> move = (i / 30 % 2 == 0 ? move_and_slide<Scalar> : move_and_bounce<Scalar>)(
+                        mesh, at, velocity, Scalar(1) / 60, options, contacts);
+                    ASSERT_LE(move.contacts, contacts.size());
+                    ASSERT_NE(move.state, MoveState::invalid);
+                    hits += ways_with_a_hit<Scalar>(triangles, at, r, move, contacts);
+                    met += move.contacts > 0 ? 1 : 0;
+                    undone += move.remainder != Vec3<Scalar>::Zero() ? 1 : 0;
+                    at = move.position;
+                    velocity = move.velocity;
+                }
+                EXPECT_EQ(hits, 0) << "seed " << seed;
+                EXPECT_TRUE(is_clear(triangles, at, r)) << "seed " << seed;
+                EXPECT_TRUE(mesh.contains(at));
+                EXPECT_GT(met, k_steps / 8) << "seed " << seed;
+                // In floats of 1/16 the ball is as large as a lattice cell.
+                EXPECT_LE(undone, sizeof(Scalar) == 4 && offset > 1e5 ? k_steps / 2 : 2) << "seed " << seed;
+            }
+}
+
+TYPED_TEST(Balls, at_rest_do_not_move) {
+    using Scalar = TypeParam;
+    Random random(4);
+    for (const double offset : {0.0, 1e3, 1e6})
+        for (int i = 0; i < 12; ++i) {
+            const V up = i % 4 == 0 ? V(0, 0, 1) : V(V(0.3 * random.in_cube()) + V(0, 0, 1)).normalized();
+            const V middle = offset * V(1, -1, 1) + (i % 8 == 0 ? 0 : 1) * random.in_cube();
+            const V u = up.unitOrthogonal();
+            TriangleSoup<Scalar> soup;
+            add_floor<Scalar>(soup, middle - 10 * u - 10 * up.cross(u), u, up.cross(u), 20, 1, 0.3);
+            const CollisionMesh<Scalar> mesh(soup.view());
+            MoveOptions<Scalar> options{.response = {.friction = 1}};
+            options.radius = static_cast<Scalar>(sizeof(Scalar) == 4 && offset > 1e5 ? 2 : random.between(0.05, 2));
+            Move<Scalar> move{};
+            move.position =
+                V(middle + (1 + double(options.radius)) * up + V(random.unit(), random.unit(), 0)).cast<Scalar>();
+            move.velocity.setZero();
+            const Vec3<Scalar> push(0, 0, Scalar(-9.81 / 60));
+            for (int step = 0; step < 240 && move.state != MoveState::resting; ++step)
+                move =
+                    move_and_bounce(mesh, move.position, Vec3<Scalar>(move.velocity + push), Scalar(1) / 60, options);
+            ASSERT_EQ(move.state, MoveState::resting) << offset << ' ' << i;
+            const Vec3<Scalar> place = move.position;
+            const double height = (place.template cast<double>() - middle).dot(up) - double(options.radius);
+            EXPECT_LE(std::abs(height), 64 * k_epsilon<Scalar> * (std::abs(offset) + 20)) << offset << ' ' << i;
+            EXPECT_TRUE(is_clear(corners_of(soup), place, options.radius));
+            for (int step = 0; step < 300; ++step) {
+                move =
+                    move_and_bounce(mesh, move.position, Vec3<Scalar>(move.velocity + push), Scalar(1) / 60, options);
+                ASSERT_TRUE(same_bits(move.position, place)) << step;
+                ASSERT_EQ(move.state, MoveState::resting);
+                ASSERT_EQ(move.casts, 1);
+                ASSERT_EQ(move.travel, Vec3<Scalar>::Zero());
+            }
+        }
+}
+
+// As points do: the way down an incline of many triangles, within 1 % of the formula.
+TYPED_TEST(Balls, keep_their_way_down_an_incline) {
+    using Scalar = TypeParam;
+    double least = 2, most = 0;
+    for (const double offset : sizeof(Scalar) == 4 ? std::vector{0.0, 1e3} : std::vector{0.0, 1e3, 1e6})
+        for (const double degrees : {1.0, 10.0, 45.0, 60.0})
+            for (const double radius : {0.05, 1.0})
+                for (const int rate : {60, 240}) {
+                    const double a = radians(degrees);
+                    const Eigen::AngleAxisd about(radians(33), V::UnitY());
+                    const V down = about * V(std::cos(a), -std::sin(a), 0);
+                    const V across = about * V(0, 0, 1);
+                    const V up = across.cross(down);
+                    const V middle = offset * V(1, 1, 1);
+                    TriangleSoup<Scalar> soup;
+                    add_floor<Scalar>(soup, middle - 20 * down - 60 * across, across, down, 60, 2, 0.3);
+                    const CollisionMesh<Scalar> mesh(soup.view());
+                    MoveOptions<Scalar> options;
+                    options.radius = static_cast<Scalar>(radius);
+                    Move<Scalar> start =
+                        move_and_slide(mesh, V(middle + (radius + 0.1) * up).template cast<Scalar>(),
+                                       V(-0.5 * up).template cast<Scalar>(), Scalar(1), options);
+                    const int steps = 3 * rate;
+                    const Move<Scalar> end = fall<Scalar>(
+                        start.position, V(0, -9.81, 0), steps, 1.0 / rate, [&](const auto& x, const auto& v, Scalar dt) {
+                            const Move<Scalar> move = move_and_slide(mesh, x, v, dt, options);
+                            EXPECT_EQ(move.remainder, Vec3<Scalar>::Zero());
+                            return move;
+                        });
+                    const V way = (end.position - start.position).template cast<double>();
+                    const double kept = way.dot(down) / (9.81 * std::sin(a) * steps * (steps + 1) / 2 / rate / rate);
+                    EXPECT_NEAR(kept, 1, 0.01) << "offset " << offset << ", " << degrees << " degrees, radius " << radius
+                                               << ", " << rate << " steps a second";
+                    EXPECT_LE(std::abs(way.dot(across)), 0.01 * way.norm());
+                    least = std::min(least, kept);
+                    most = std::max(most, kept);
+                }
+    std::cout << "kept: " << least << " to " << most << '\n';
+}
+
+// Edges inside of a flat floor are no obstacle, whatever the direction.
+TYPED_TEST(Balls, are_not_caught_by_edges_of_a_flat_floor) {
+    using Scalar = TypeParam;
+    Random random(7);
+    for (const double offset : {0.0, 1e3})
+        for (int i = 0; i < 8; ++i) {
+            const double height = i % 3 == 0 ? 0 : 1 + random.unit();
+            TriangleSoup<Scalar> soup;
+            add_floor<Scalar>(soup, V(offset - 10, offset - 10, offset + height), V::UnitX(), V::UnitY(), 40, 0.5, 0.4);
+            const CollisionMesh<Scalar> mesh(soup.view());
+            const double angle = i == 0 ? 0 : random.between(0, 2 * std::numbers::pi);
+            MoveOptions<Scalar> options;
+            options.radius = static_cast<Scalar>(i % 2 == 0 ? 0.1 : 1.3);
+            Vec3<Scalar> velocity = V(4 * std::cos(angle), 4 * std::sin(angle), 0).cast<Scalar>();
+            const Vec3<Scalar> along = velocity;
+            Vec3<Scalar> at = V(offset, offset, offset + height + double(options.radius) + 0.001).cast<Scalar>();
+            const Vec3<Scalar> start = at;
+            for (int step = 0; step < 120; ++step) {
+                const Move<Scalar> move = move_and_slide(
+                    mesh, at, Vec3<Scalar>(velocity - Vec3<Scalar>(0, 0, Scalar(9.81 / 60))), Scalar(1) / 60, options);
+                ASSERT_LE(move.casts, 4);
+                at = move.position;
+                velocity = move.velocity;
+            }
+            EXPECT_EQ(velocity, along) << "offset " << offset << ", direction " << angle << ", " << i;
+            const double step = std::ldexp(k_epsilon<Scalar>, std::ilogb(std::max(offset + 10, 1.0)));
+            EXPECT_LE(((at - start) - 2 * along).template cast<double>().head(2).norm(), 120 * step);
+        }
+}
+
+// Over a kerb that is lower than its center, up along it and down behind it; a higher one stops it.
+TYPED_TEST(Balls, go_over_a_kerb_or_are_stopped_by_it) {
+    using Scalar = TypeParam;
+    for (const double offset : {0.0, 1e3})
+        for (const double kerb : {0.05, 0.2, 1.2}) {
+            const V middle = offset * V(1, 1, 1);
+            TriangleSoup<Scalar> soup;
+            add_floor<Scalar>(soup, middle + V(-10, -5, 0), V::UnitX(), V::UnitY(), 10, 1, 0.3);
+            add_floor<Scalar>(soup, middle + V(0, -5, 0), V::UnitY(), V::UnitZ() * kerb, 10, 1);
+            add_floor<Scalar>(soup, middle + V(0, -5, kerb), V::UnitX(), V::UnitY(), 10, 1, 0.3);
+            const CollisionMesh<Scalar> mesh(soup.view());
+            const std::vector<Corners> triangles = corners_of(soup);
+            MoveOptions<Scalar> options;
+            options.radius = Scalar(0.5);
+            Move<Scalar> move{};
+            move.position = V(middle + V(-3, 0.1, 0.51)).template cast<Scalar>();
+            move.velocity = Vec3<Scalar>(4, Scalar(0.3), 0);
+            std::array<MoveContact<Scalar>, 32> contacts;
+            int hits = 0;
+            for (int step = 0; step < 120; ++step) {
+                const Vec3<Scalar> from = move.position;
+                move = move_and_slide(mesh, from, Vec3<Scalar>(move.velocity - Vec3<Scalar>(0, 0, Scalar(9.81 / 60))),
+                                      Scalar(1) / 60, options, contacts);
+                hits += ways_with_a_hit<Scalar>(triangles, from, options.radius, move, contacts);
+                // Along the kerb nothing stops it.
+                EXPECT_NEAR(double(move.velocity[1]), double(Scalar(0.3)), 1e-3);
+            }
+            EXPECT_EQ(hits, 0);
+            const V end = move.position.template cast<double>() - middle;
+            if (kerb < 0.5) {
+                EXPECT_GT(end[0], 0.5) << kerb;
+                EXPECT_GT(end[2], kerb + 0.49) << kerb;
+            } else {
+                EXPECT_NEAR(end[0], -0.5, 0.01) << kerb;
+                EXPECT_NEAR(double(move.velocity[0]), 0, 1e-6);
+            }
+        }
+}
+
+// In a corner of three planes it is wedged, in a groove it rests, for good.
+TYPED_TEST(Balls, in_corners_and_grooves_stay) {
+    using Scalar = TypeParam;
+    Random random(9);
+    for (const double offset : {0.0, 1e3})
+        for (int i = 0; i < 40; ++i) {
+            const bool groove = i % 2 == 0;
+            const V middle = offset * V(1, -1, 1) + random.in_cube();
+            const Eigen::AngleAxisd turn(i % 4 < 2 ? 0 : random.between(0, 3), random.direction());
+            const V x = turn * V::UnitX(), y = turn * V::UnitY(), z = turn * V::UnitZ();
+            TriangleSoup<Scalar> soup;
+            add_floor<Scalar>(soup, middle - 3 * y, y, z, 6, 2);
+            add_floor<Scalar>(soup, middle - 3 * y, x, y, 6, 2);
+            if (!groove) add_floor<Scalar>(soup, middle - 3 * x - 3 * z, z, x, 6, 2);
+            const CollisionMesh<Scalar> mesh(soup.view());
+            MoveOptions<Scalar> options{.response = {.friction = Scalar(0.5)}};
+            options.radius = static_cast<Scalar>(random.between(0.2, 1));
+            const double r = static_cast<double>(options.radius);
+            const V push = -(random.unit() + 0.3) * x - (random.unit() + 0.3) * z - (groove ? 0 : 0.4) * y;
+            Move<Scalar> move{}, last{};
+            move.position = V(middle + 1.5 * (x + y + z)).template cast<Scalar>();
+            int still = 0;
+            for (int step = 0; step < 240; ++step) {
+                last = move;
+                move = move_and_bounce(mesh, move.position, V(5 * push).template cast<Scalar>(), Scalar(1) / 60, options);
+                still = same_bits(move.position, last.position) ? still + 1 : 0;
+            }
+            EXPECT_EQ(move.state, groove ? MoveState::resting : MoveState::wedged) << i;
+            EXPECT_EQ(move.velocity, (Vec3<Scalar>::Zero())) << i;
+            EXPECT_GE(still, 100) << i;
+            const V off = move.position.template cast<double>() - middle;
+            const double near = 256 * k_epsilon<Scalar> * (std::abs(offset) + 10);
+            EXPECT_NEAR(off.dot(x), r, near);
+            EXPECT_NEAR(off.dot(z), r, near);
+            EXPECT_TRUE(is_clear(corners_of(soup), move.position, options.radius));
+        }
+}
+
+// One that overlaps may go on along what it overlaps, and no deeper.
+TYPED_TEST(Balls, that_overlap_are_not_stuck) {
+    using Scalar = TypeParam;
+    const CollisionMesh<Scalar> mesh = floor_at<Scalar>(V(0, 0, 0), V(0, 0, 1));
+    MoveOptions<Scalar> options;
+    options.radius = 1;
+    const Vec3<Scalar> from(Scalar(0.2), Scalar(0.1), Scalar(0.75));
+    const Move<Scalar> along = move_and_slide(mesh, from, Vec3<Scalar>(2, 0, -1), Scalar(1), options);
+    EXPECT_NEAR(double(along.position[0]), 2.2, 0.7) << "stopped, if at all, by triangles that it comes to";
+    EXPECT_GE(along.position[2], Scalar(0.75));
+    EXPECT_LE(along.position[2], Scalar(0.7501));
+    const Move<Scalar> off = move_and_slide(mesh, from, Vec3<Scalar>(0, 0, 3), Scalar(1), options);
+    EXPECT_EQ(off.state, MoveState::free);
+    EXPECT_EQ(off.position[2], Scalar(3.75));
+    const Move<Scalar> down = move_and_slide(mesh, from, Vec3<Scalar>(0, 0, -3), Scalar(1), options);
+    EXPECT_TRUE(same_bits(down.position, from));
+}
+
+TYPED_TEST(Balls, bounce_as_points_do) {
+    using Scalar = TypeParam;
+    const CollisionMesh<Scalar> mesh = floor_at<Scalar>(V(0, 0, 0), V(0, 0, 1));
+    MoveOptions<Scalar> options{.response = {.restitution = Scalar(0.5)}};
+    options.radius = Scalar(0.25);
+    std::array<MoveContact<Scalar>, 4> contacts;
+    const Move<Scalar> move = move_and_bounce(mesh, Vec3<Scalar>(Scalar(0.2), Scalar(0.1), Scalar(1.25)),
+                                              Vec3<Scalar>(1, 0, -4), Scalar(1), options, contacts);
+    ASSERT_EQ(move.contacts, 1U);
+    EXPECT_NEAR(double(contacts[0].point[2]), 0.25, 1e-5);
+    EXPECT_NEAR(double(contacts[0].seconds), 0.75, 1e-5);
+    EXPECT_NEAR(double(contacts[0].speed), 4, 1e-5);
+    EXPECT_NEAR(double(move.position[2]), 0.25 + 0.75 * 2, 1e-5);
+    EXPECT_NEAR(double(move.position[0]), 1.2, 1e-5);
+    EXPECT_EQ(move.velocity, (Vec3<Scalar>(1, 0, 2)));
+}
+
+TYPED_TEST(Balls, in_batches_are_single_calls) {
+    using Scalar = TypeParam;
+    const TriangleSoup<Scalar> soup = moved<Scalar>(bumpy_sphere(8), 3, V(1, 2, 3));
+    const CollisionMesh<Scalar> mesh(soup.view());
+    Random random(6);
+    constexpr std::size_t k_count = 1500, k_room = 3;
+    std::vector<Vec3<Scalar>> x, v;
+    std::vector<Scalar> radii;
+    for (std::size_t i = 0; i < k_count; ++i) {
+        x.push_back(V(V(1, 2, 3) + 1.5 * random.in_cube()).cast<Scalar>());
+        v.push_back(V(8 * random.in_cube()).cast<Scalar>());
+        radii.push_back(i % 5 == 0 ? Scalar(0) : static_cast<Scalar>(random.between(0.01, 0.4)));
+    }
+    radii[17] = std::numeric_limits<Scalar>::quiet_NaN();
+    radii[18] = -1;
+    radii[19] = std::numeric_limits<Scalar>::infinity();
+    const Reversed reversed;
+    const Threads threads;
+    for (const bool bounces : {false, true}) {
+        std::vector<Move<Scalar>> single(k_count);
+        std::vector<MoveContact<Scalar>> contacts(k_count * k_room);
+        std::size_t met = 0;
+        MoveOptions<Scalar> options{.query = {.sides = Sides::both},
+                                    .response = {.restitution = Scalar(0.5), .friction = Scalar(0.1)}};
+        for (std::size_t i = 0; i < k_count; ++i) {
+            options.radius = radii[i];
+            single[i] = (bounces ? move_and_bounce<Scalar> : move_and_slide<Scalar>)(
+                mesh, x[i], v[i], Scalar(0.2), options, std::span(contacts).subspan(i * k_room, k_room));
+            EXPECT_EQ(single[i].state == MoveState::invalid, i >= 17 && i <= 19);
+            met += single[i].contacts > 0 ? 1U : 0U;
+        }
+        EXPECT_GT(met, k_count / 4);
+        options.radius = 77;  // it is each one's that counts
+        options.radii = radii;
+        for (const Executor& executor : {Executor(), Executor(reversed), Executor(threads)}) {
+            const std::uint64_t invalid = mesh.statistics().invalid_queries;
+            std::vector<Move<Scalar>> all(k_count);
+            std::vector<MoveContact<Scalar>> all_contacts(k_count * k_room);
+            EXPECT_EQ((bounces ? moves_and_bounce<Scalar> : moves_and_slide<Scalar>)(mesh, x, v, Scalar(0.2), all,
+                                                                                     options, executor, all_contacts),
+                      met);
+            for (std::size_t i = 0; i < k_count; ++i) ASSERT_TRUE(same_bits(single[i], all[i])) << i;
+            for (std::size_t i = 0; i < contacts.size(); ++i) ASSERT_TRUE(same_bits(contacts[i], all_contacts[i])) << i;
+            EXPECT_EQ(mesh.statistics().invalid_queries, invalid + 3);
+        }
+        std::vector<Move<Scalar>> out(k_count);
+        options.radii = std::span(radii).first(k_count - 1);
+        EXPECT_THROW(moves_and_slide(mesh, x, v, Scalar(1), out, options), std::invalid_argument);
+    }
+}
+
+}  // namespace
+}  // namespace pierce::test
