@@ -59,9 +59,10 @@ class MovingLoop {
         start_ = place_ = to_point(position);
         seconds_ = static_cast<double>(seconds);
         turns_.begin(velocity);
+        MovingCandidate met;
+        feel(met);
         Point target = aimed();
         if (!are_finite(target)) return invalid();
-        MovingCandidate met;
         if (!is_met(target, met)) return finished(position, target);
         const MovingPoint first_way = to_moving(start_, target);
         const MovingCandidate first = met;
@@ -93,6 +94,19 @@ class MovingLoop {
         return first_contact(scene_, to_moving(start_, target), query_, false, counters_, met);
     }
 
+    /// As MoveLoop::feels(): what it is in contact with is looked for beyond a way that is shorter than that.
+    void feel(MovingCandidate& met) {
+        const Point way = turns_.way(seconds_);
+        const double furthest = 2 * k_contact_grains * scene_.grain;
+        const double length = length_of(way);
+        if (!(length > 0 && length < furthest)) return;
+        const Point target = rounded_to<Scalar>(plus(start_, furthest / length, way));
+        if (!are_finite(target) || target == start_ || !is_met(target, met)) return;
+        const Held held{met, met.impact.side == Sides::back ? -1 : 1, {}, {}, 1};
+        const double height = height_at(held, values_near(held, place_, 0).normal, place_, 0);
+        if (std::abs(height) <= k_contact_grains * scene_.grain) (void)meet(target, met);
+    }
+
     /// At a time of the step: the normal and the mesh's motion next to a place; heights above the plane.
     [[nodiscard]] static MovingValues values_near(const Held& held, const Point& place, double time) {
         MovingCandidate face = held.met;
@@ -118,7 +132,7 @@ class MovingLoop {
         if (normal == Point{} || !(height >= -contact)) return false;
         if (height > contact) {
             double time = 0;
-            if (move_.casts == 1) {
+            if (turns_.contacts() == 0) {
                 time = values_of(to_moving(start_, target), options_.query.sides, met).time;
             } else {
                 const double last = height_at(held, values_near(held, target, 1).normal, target, 1);

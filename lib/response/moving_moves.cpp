@@ -33,8 +33,8 @@ Move<Scalar> move(const DeformationStep<Scalar>& step, const Vec3<Scalar>& posit
                   std::span<MoveContact<Scalar>> contacts) {
     const auto* impl = Inside::of(step);
     if (impl == nullptr)
-        return (bounces ? move_and_bounce<Scalar> : move_and_slide<Scalar>)(step.before(), position, velocity, seconds,
-                                                                            options, contacts);
+        return bounces ? move_and_bounce(step.before(), position, velocity, seconds, options, contacts)
+                       : move_and_slide(step.before(), position, velocity, seconds, options, contacts);
     const StandardArithmetic standard;
     QueryCounters spare;
     QueryCounters& counters = options.query.counters != nullptr ? *options.query.counters : spare;
@@ -51,9 +51,10 @@ std::size_t move_all_in(const char* call, const DeformationStep<Scalar>& step, c
                         std::span<MoveContact<Scalar>> contacts) {
     const auto* impl = Inside::of(step);
     if (impl == nullptr)
-        return (bounces ? moves_and_bounce<Scalar> : moves_and_slide<Scalar>)(step.before(), positions, velocities,
-                                                                              seconds, out, options, executor,
-                                                                              contacts);
+        return bounces ? moves_and_bounce(step.before(), positions, velocities, seconds, out, options, executor,
+                                          contacts)
+                       : moves_and_slide(step.before(), positions, velocities, seconds, out, options, executor,
+                                         contacts);
     return move_all<Scalar>(
         call, positions, velocities, out, options, executor, contacts,
         [&](std::size_t count) { Inside::of(step.before()).count_invalid(count); },
