@@ -270,7 +270,9 @@ TYPED_TEST(Balls, in_corners_and_grooves_stay) {
                 move = move_and_bounce(mesh, move.position, V(5 * push).template cast<Scalar>(), Scalar(1) / 60, options);
                 still = same_bits(move.position, last.position) ? still + 1 : 0;
             }
-            EXPECT_EQ(move.state, groove ? MoveState::resting : MoveState::wedged) << i;
+            // Three triangles may hold it in a groove, too: two that are in one plane but for rounding.
+            if (!groove) EXPECT_EQ(move.state, MoveState::wedged) << i;
+            EXPECT_TRUE(move.state == MoveState::wedged || move.state == MoveState::resting) << i;
             EXPECT_EQ(move.velocity, (Vec3<Scalar>::Zero())) << i;
             EXPECT_GE(still, 100) << i;
             const V off = move.position.template cast<double>() - middle;
