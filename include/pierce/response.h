@@ -114,11 +114,12 @@ struct MoveOptions {
 enum class MoveState : std::uint8_t {
     free,     ///< met nothing
     slid,     ///< met something, and goes on: along it, or off it
-    resting,  ///< stands still on what it met: on a face, or in the crease of two; or goes with it, where the mesh moves
+    resting,  ///< stands still on what it met: on a face, or in the crease of two; or goes with a mesh that moves
     wedged,   ///< stopped by three or more; or its queries were used up, or no place was left, without moving at all
     invalid,  ///< something was NaN or infinite, or time went back: nothing was moved, and the mesh counted it
-    crushed,  ///< in a step of a mesh that moves: no place was found at its end, as between two sheets that meet. It was
-              ///< put where the mesh carries it, perhaps to the other side
+    /// In a step of a mesh that moves: no place was found at its end, as between two sheets that meet. It was put where
+    /// the mesh carries it, perhaps to the other side.
+    crushed,
 };
 
 /// What became of a particle in one step.

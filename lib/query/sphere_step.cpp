@@ -63,8 +63,8 @@ double distance_from(const Corners& corners, const Point& point) {
     return size * std::sqrt(dot(unit, unit));
 }
 
-#define PIERCE_SPHERE_STEPS(Scalar)                                                           \
-    template double sphere_grain(const Scene<Scalar>&, const Point&, double);                 \
+#define PIERCE_SPHERE_STEPS(Scalar)                                                                                   \
+    template double sphere_grain(const Scene<Scalar>&, const Point&, double);                                         \
     template bool step_sphere(const Scene<Scalar>&, const Path&, double, double, const QueryOptions&, QueryCounters&, \
                               SphereStop&)
 PIERCE_SPHERE_STEPS(float);

@@ -1,5 +1,5 @@
-// What those ask who move a sphere from step to step: what stops it, and whether one triangle lets it pass. Behind calls
-// that are not inlined (engine.h). All coordinates are finite, radii are finite and larger than 0.
+// What those ask who move a sphere from step to step: what stops it, and whether one triangle lets it pass. Behind
+// calls that are not inlined (engine.h). All coordinates are finite, radii are finite and larger than 0.
 #pragma once
 
 #include <pierce/options.h>
@@ -12,7 +12,7 @@ template <class Scalar>
 [[nodiscard]] double sphere_grain(const Scene<Scalar>& scene, const Point& from, double radius);
 
 struct SphereStop {
-    bool in_contact;  ///< it is left where it is, as near as that is to the plane that it touches; else it is at `center`
+    bool in_contact;  ///< so near to the plane that it touches that it is left where it is; else it is at `center`
     Point center;
     double fraction;  ///< of the way, up to `center`: a lower bound
     Point normal;     ///< unit, towards the center

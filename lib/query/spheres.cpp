@@ -101,8 +101,8 @@ std::optional<SphereHit<Scalar>> sweep_sphere(const Scene<Scalar>& scene, const 
     std::optional<SphereHit<Scalar>> hit;
     const Path path = to_path(step);
     if (scene.empty() || path.from == path.to) return hit;
-    const SphereSweep<Scalar> sweep(scene, path, static_cast<double>(radius), std::min(options.max_fraction, 1.0), options,
-                                    counters);
+    const SphereSweep<Scalar> sweep(scene, path, static_cast<double>(radius), std::min(options.max_fraction, 1.0),
+                                    options, counters);
     if (!sweep.found()) return hit;
     const SphereCandidate& first = sweep.first();
     report(sweep.sphere(), scene.corners(first.triangle), first, sweep.place(), hit.emplace());

@@ -49,8 +49,8 @@ template <class Surface>
     return enough;
 }
 
-/// `end` lifted over all planes by at least `least`, in units, rounded to Scalar, so that what goes there from `from` is
-/// certainly in front of them; false: no such point is certain. `furthest`: how far it may be lifted.
+/// `end` lifted over all planes by at least `least`, in units, rounded to Scalar, so that what goes there from `from`
+/// is certainly in front of them; false: no such point is certain. `furthest`: how far it may be lifted.
 template <class Scalar, class Cast>
 [[nodiscard]] bool lift_over(const Cast& cast, const Point& from, const Point& end,
                              std::span<const Plane<typename Cast::Surface>> planes,

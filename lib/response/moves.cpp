@@ -18,9 +18,8 @@ namespace {
 // Not inlined: see environment.h.
 template <class Scalar>
 [[gnu::noinline]] Move<Scalar> move_in(const Scene<Scalar>& scene, const Vec3<Scalar>& position, Scalar radius,
-                                       const Vec3<Scalar>& velocity, Scalar seconds,
-                                       const MoveOptions<Scalar>& options, bool bounces,
-                                       std::span<MoveContact<Scalar>> contacts, QueryCounters& counters) {
+                                       const Vec3<Scalar>& velocity, Scalar seconds, const MoveOptions<Scalar>& options,
+                                       bool bounces, std::span<MoveContact<Scalar>> contacts, QueryCounters& counters) {
     if (radius == 0) {
         const MeshCast<Scalar> cast(scene, options.query, counters);
         return MoveLoop<Scalar, MeshCast<Scalar>>(cast, options, bounces, contacts).run(position, velocity, seconds);

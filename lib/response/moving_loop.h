@@ -262,8 +262,8 @@ class MovingLoop {
     QueryCounters& counters_;
     Move<Scalar> move_;
     Point start_{};
-    Point place_{};     ///< on the bent way, at `time_`
-    double time_ = 0;   ///< part of the step
+    Point place_{};    ///< on the bent way, at `time_`
+    double time_ = 0;  ///< part of the step
     double seconds_ = 0;
     std::array<Held, k_most_planes> held_;  ///< the planes of `turns_`
     std::size_t count_ = 0;

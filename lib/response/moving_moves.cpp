@@ -16,9 +16,8 @@ namespace {
 // Not inlined: see environment.h.
 template <class Scalar>
 [[gnu::noinline]] Move<Scalar> move_in(const MovingScene<Scalar>& scene, const Vec3<Scalar>& position, Scalar radius,
-                                       const Vec3<Scalar>& velocity, Scalar seconds,
-                                       const MoveOptions<Scalar>& options, bool bounces,
-                                       std::span<MoveContact<Scalar>> contacts, QueryCounters& counters) {
+                                       const Vec3<Scalar>& velocity, Scalar seconds, const MoveOptions<Scalar>& options,
+                                       bool bounces, std::span<MoveContact<Scalar>> contacts, QueryCounters& counters) {
     if (!(radius == 0)) {
         Move<Scalar> move = begun(position, velocity);
         move.state = MoveState::invalid;
@@ -51,10 +50,9 @@ std::size_t move_all_in(const char* call, const DeformationStep<Scalar>& step, c
                         std::span<MoveContact<Scalar>> contacts) {
     const auto* impl = Inside::of(step);
     if (impl == nullptr)
-        return bounces ? moves_and_bounce(step.before(), positions, velocities, seconds, out, options, executor,
-                                          contacts)
-                       : moves_and_slide(step.before(), positions, velocities, seconds, out, options, executor,
-                                         contacts);
+        return bounces
+                   ? moves_and_bounce(step.before(), positions, velocities, seconds, out, options, executor, contacts)
+                   : moves_and_slide(step.before(), positions, velocities, seconds, out, options, executor, contacts);
     return move_all<Scalar>(
         call, positions, velocities, out, options, executor, contacts,
         [&](std::size_t count) { Inside::of(step.before()).count_invalid(count); },
@@ -105,16 +103,16 @@ std::size_t moves_and_bounce(const DeformationStep<Scalar>& step,
                                contacts);
 }
 
-#define PIERCE_MOVING_MOVES(Scalar)                                                                                           \
-    template Move<Scalar> move_and_slide(const DeformationStep<Scalar>&, const Vec3<Scalar>&, const Vec3<Scalar>&,       \
+#define PIERCE_MOVING_MOVES(Scalar)                                                                                    \
+    template Move<Scalar> move_and_slide(const DeformationStep<Scalar>&, const Vec3<Scalar>&, const Vec3<Scalar>&,     \
                                          Scalar, const MoveOptions<Scalar>&, std::span<MoveContact<Scalar>>) noexcept; \
-    template Move<Scalar> move_and_bounce(const DeformationStep<Scalar>&, const Vec3<Scalar>&, const Vec3<Scalar>&,      \
+    template Move<Scalar> move_and_bounce(const DeformationStep<Scalar>&, const Vec3<Scalar>&, const Vec3<Scalar>&,    \
                                           Scalar, const MoveOptions<Scalar>&,                                          \
                                           std::span<MoveContact<Scalar>>) noexcept;                                    \
-    template std::size_t moves_and_slide(const DeformationStep<Scalar>&, const PointsView<Scalar>&,                      \
+    template std::size_t moves_and_slide(const DeformationStep<Scalar>&, const PointsView<Scalar>&,                    \
                                          const PointsView<Scalar>&, Scalar, std::span<Move<Scalar>>,                   \
                                          const MoveOptions<Scalar>&, const Executor&, std::span<MoveContact<Scalar>>); \
-    template std::size_t moves_and_bounce(const DeformationStep<Scalar>&, const PointsView<Scalar>&,                     \
+    template std::size_t moves_and_bounce(const DeformationStep<Scalar>&, const PointsView<Scalar>&,                   \
                                           const PointsView<Scalar>&, Scalar, std::span<Move<Scalar>>,                  \
                                           const MoveOptions<Scalar>&, const Executor&, std::span<MoveContact<Scalar>>)
 PIERCE_MOVING_MOVES(float);

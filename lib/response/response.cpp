@@ -99,12 +99,12 @@ Vec3<Scalar> lifted(const CollisionMesh<Scalar>& mesh, const std::type_identity_
     return hit ? hit->point.vec() : target;
 }
 
-#define PIERCE_RESPONSES(Scalar)                                                                              \
-    template Vec3<Scalar> slide(const Vec3<Scalar>&, const Vec3<Scalar>&, const Vec3<Scalar>&) noexcept;      \
-    template Vec3<Scalar> slide(const Vec3<Scalar>&, std::span<const Vec3<Scalar>>) noexcept;                 \
-    template Vec3<Scalar> bounce(const Vec3<Scalar>&, const Vec3<Scalar>&, Scalar, Scalar,                    \
-                                 const Vec3<Scalar>&) noexcept;                                               \
-    template Vec3<Scalar> lifted(const CollisionMesh<Scalar>&, const Vec3<Scalar>&,                           \
+#define PIERCE_RESPONSES(Scalar)                                                                         \
+    template Vec3<Scalar> slide(const Vec3<Scalar>&, const Vec3<Scalar>&, const Vec3<Scalar>&) noexcept; \
+    template Vec3<Scalar> slide(const Vec3<Scalar>&, std::span<const Vec3<Scalar>>) noexcept;            \
+    template Vec3<Scalar> bounce(const Vec3<Scalar>&, const Vec3<Scalar>&, Scalar, Scalar,               \
+                                 const Vec3<Scalar>&) noexcept;                                          \
+    template Vec3<Scalar> lifted(const CollisionMesh<Scalar>&, const Vec3<Scalar>&,                      \
                                  std::span<const MoveContact<Scalar>>, Scalar, const QueryOptions&) noexcept
 PIERCE_RESPONSES(float);
 PIERCE_RESPONSES(double);

@@ -104,12 +104,12 @@ class Turns {
     std::size_t total_ = 0;
     double scale_ = 1;  ///< of velocities: those below times this are the caller's
     Point velocity_{};
-    Point arrived_{};                              ///< the velocity with which it came to the place, or bounced there
-    Point began_{};                                ///< the velocity in the beginning
-    bool turned_on_ = false;                       ///< by what may turn it round: a bounce, or a surface that moves
-    std::array<Wall, k_most_planes> walls_;      ///< of the place
+    Point arrived_{};                        ///< the velocity with which it came to the place, or bounced there
+    Point began_{};                          ///< the velocity in the beginning
+    bool turned_on_ = false;                 ///< by what may turn it round: a bounce, or a surface that moves
+    std::array<Wall, k_most_planes> walls_;  ///< of the place
     std::size_t count_ = 0;
-    std::array<Wall, k_most_planes> met_;        ///< in this move, at any place: the first ones
+    std::array<Wall, k_most_planes> met_;  ///< in this move, at any place: the first ones
     std::size_t met_count_ = 0;
     int held_ = 0;
 };

@@ -98,9 +98,9 @@ void measure(const char* what, const On& on, Scalar radius, double& worst) {
     for (Kind<Scalar>& kind : kinds) {
         std::nth_element(kind.nanoseconds.begin(), kind.nanoseconds.begin() + k_repetitions / 2,
                          kind.nanoseconds.end());
-        std::cout << "  " << std::left << std::setw(30) << kind.name << std::right << std::fixed
-                  << std::setprecision(0) << std::setw(7) << kind.nanoseconds[k_repetitions / 2] << " ns a step, "
-                  << std::setprecision(2) << kind.queries << " queries, " << kind.met << " meet something\n";
+        std::cout << "  " << std::left << std::setw(30) << kind.name << std::right << std::fixed << std::setprecision(0)
+                  << std::setw(7) << kind.nanoseconds[k_repetitions / 2] << " ns a step, " << std::setprecision(2)
+                  << kind.queries << " queries, " << kind.met << " meet something\n";
     }
     worst = std::min(worst, kinds[1].nanoseconds[k_repetitions / 2] / kinds[2].nanoseconds[k_repetitions / 2]);
 }

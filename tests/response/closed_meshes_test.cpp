@@ -143,7 +143,8 @@ INSTANTIATE_TEST_SUITE_P(Rooms, ClosedMeshesSoak,
                          ::testing::Combine(::testing::ValuesIn(k_closed), ::testing::Values(0.0, 1e3, 1e6)),
                          [](const auto& room) {
                              const int exponent = static_cast<int>(std::log10(std::get<1>(room.param) + 1) + 0.5);
-                             return std::string(std::get<0>(room.param)) + "_at_" + (exponent == 0 ? "0" : "1e" + std::to_string(exponent));
+                             return std::string(std::get<0>(room.param)) + "_at_" +
+                                    (exponent == 0 ? "0" : "1e" + std::to_string(exponent));
                          });
 
 }  // namespace
