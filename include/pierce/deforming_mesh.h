@@ -53,6 +53,7 @@ class PIERCE_EXPORT DeformationStep {
   private:
     template <class>
     friend class DeformingMesh;
+    friend struct detail::Inside;  // for rooms that stand on the queries (lib/query/inside.h)
     struct PIERCE_HIDDEN Impl;
     PIERCE_HIDDEN explicit DeformationStep(std::shared_ptr<const Impl> impl) noexcept;
     std::shared_ptr<const Impl> impl_;  ///< null: no triangles

@@ -9,6 +9,7 @@
 
 #include <pierce/collision_mesh.h>
 #include <pierce/coordinates.h>
+#include <pierce/deforming_mesh.h>
 #include <pierce/executor.h>
 #include <pierce/export.h>
 #include <pierce/options.h>
@@ -62,7 +63,7 @@ struct Response {
 /// One contact of a move. Plain memory.
 template <class Scalar>
 struct MoveContact {
-    Coordinates<Scalar> point;   ///< where the particle was
+    Coordinates<Scalar> point;   ///< where the particle was, or the center of the ball
     Coordinates<Scalar> normal;  ///< unit normal, towards the particle
     Scalar speed;                ///< at which it approached the surface along the normal, seen from the surface
     Scalar seconds;              ///< how much of the step was left
@@ -103,6 +104,10 @@ struct MoveOptions {
     /// Of all faces, unless `response_at` says more. `move_and_slide` takes no more than the velocity of it.
     Response<Scalar> response = {};
     ResponseAt<Scalar> response_at = {};
+    /// 0: what moves is a point. More than 0: it is a ball of this radius, whose center goes from `position`.
+    Scalar radius = 0;
+    /// In a batch the radius of each, if they differ. Single calls don't look at it.
+    std::span<const Scalar> radii = {};
     /// How many queries a move may take: one, and one for each contact. Each goes to a face that was not met before at
     /// that place, so most moves take one to four; long steps over fine meshes take one for each fold that they cross.
     int max_casts = 32;
@@ -111,9 +116,12 @@ struct MoveOptions {
 enum class MoveState : std::uint8_t {
     free,     ///< met nothing
     slid,     ///< met something, and goes on: along it, or off it
-    resting,  ///< stands still on what it met: on a face, or in the crease of two
+    resting,  ///< stands still on what it met: on a face, or in the crease of two; or goes with a mesh that moves
     wedged,   ///< stopped by three or more; or its queries were used up, or no place was left, without moving at all
     invalid,  ///< something was NaN or infinite, or time went back: nothing was moved, and the mesh counted it
+    /// In a step of a mesh that moves: no place was found at its end, as between two sheets that meet. It was put where
+    /// the mesh carries it, perhaps to the other side.
+    crushed,
 };
 
 /// What became of a particle in one step.
@@ -139,10 +147,12 @@ struct Move {
 /// velocity in the same place do the same on every machine.
 ///
 /// A face is met where the way goes into it, and the particle is left where it is if that is within four grains of the
-/// face's plane. So a resting particle takes one query for each face that it rests on, and a sliding one another. A way
-/// shorter than eight grains is first looked along for that distance, for what it is in contact with, so slow particles
-/// that are free take two. One that is not to move at all meets nothing and takes none, also where a surface moves.
-/// Without friction nothing stops what swings at the bottom of a fold.
+/// face's plane. So a resting particle takes one query for each face that it rests on, and a sliding one another: one
+/// at rest some 1.5 to 2 times as long as one that is free a little above the ground, as it has a hit, the hit's plane
+/// and a response as well. (As its answer stays the same, a caller may leave it out until its velocity or something
+/// around it changes.) A way shorter than eight grains is first looked along for that distance, for what it is in
+/// contact with, so slow particles that are free take two. One that is not to move at all meets nothing and takes none,
+/// also where a surface moves. Without friction nothing stops what swings at the bottom of a fold.
 ///
 /// Contacts are written in order to `contacts`, as many as fit. Allocates nothing. Throws nothing.
 ///
@@ -162,6 +172,41 @@ template <class Scalar>
 template <class Scalar>
 [[nodiscard]] PIERCE_EXPORT Move<Scalar> move_and_bounce(
     const CollisionMesh<Scalar>& mesh, const std::type_identity_t<Vec3<Scalar>>& position,
+    const std::type_identity_t<Vec3<Scalar>>& velocity, std::type_identity_t<Scalar> seconds,
+    const std::type_identity_t<MoveOptions<Scalar>>& options = {},
+    std::type_identity_t<std::span<MoveContact<Scalar>>> contacts = {}) noexcept;
+
+/// **Balls.** With `MoveOptions::radius` both calls move a ball, which slides along faces and round edges and corners.
+/// Each of its ways is clear by the exact rule of `SphereHit`: it penetrates nothing at the end or on the way that it
+/// did not in the beginning, and that no deeper. `QueryOptions::sides` says nothing then. All that is said above of
+/// particles is true of it, with the distance from the triangle less the radius in place of that from the plane, and
+/// with a grain that is in double at least 2^-45 of the distance of the mesh's furthest point. Faces that go on in one
+/// plane have no edges for it. One that overlaps the mesh from the beginning slides along what it overlaps, and is not
+/// pushed out (`sphere_contacts` says how). A radius below 0, NaN or infinity is invalid.
+///
+/// **Meshes that move.** In a step of a `DeformingMesh` the particle goes on for `seconds` while the mesh goes from
+/// `before` to `after`. The velocity of the mesh at each contact enters the response, with that of `Response` on top: a
+/// wall that comes pushes, and what friction holds goes with the mesh. `seconds` must be above 0, a radius must be 0.
+///
+/// What is promised: the straight way from `position` to the one returned, over the whole step, has no contact under
+/// `options.query` (`DeformationStep::sweep`), unless the state is `crushed`. So a chain of moves, one for each step,
+/// can't get through the mesh, however it moves. The way with its bends can't be asked about, as the mesh at a time
+/// within a step has no representable corners: velocity, contacts and the place in the end are those of that way,
+/// computed in double, and the short cut to that place is what is certified. What lies within a bend and is not on the
+/// short cut is not met. Where the short cut meets what the bent way does not, or no way is found in `max_casts`, the
+/// particle goes with what it met first to the end of the step (`SweepHit::place`), as fast as it was left by the
+/// contacts; `remainder` has the way lost. So the motion is truer in short steps. One query is always made, and what
+/// rests takes two; it goes with the mesh to within the rounding of a step, and on a part of the mesh that stands still
+/// it does not move by one bit.
+template <class Scalar>
+[[nodiscard]] PIERCE_EXPORT Move<Scalar> move_and_slide(
+    const DeformationStep<Scalar>& step, const std::type_identity_t<Vec3<Scalar>>& position,
+    const std::type_identity_t<Vec3<Scalar>>& velocity, std::type_identity_t<Scalar> seconds,
+    const std::type_identity_t<MoveOptions<Scalar>>& options = {},
+    std::type_identity_t<std::span<MoveContact<Scalar>>> contacts = {}) noexcept;
+template <class Scalar>
+[[nodiscard]] PIERCE_EXPORT Move<Scalar> move_and_bounce(
+    const DeformationStep<Scalar>& step, const std::type_identity_t<Vec3<Scalar>>& position,
     const std::type_identity_t<Vec3<Scalar>>& velocity, std::type_identity_t<Scalar> seconds,
     const std::type_identity_t<MoveOptions<Scalar>>& options = {},
     std::type_identity_t<std::span<MoveContact<Scalar>>> contacts = {}) noexcept;
@@ -191,6 +236,19 @@ PIERCE_EXPORT std::size_t moves_and_slide(
 template <class Scalar>
 PIERCE_EXPORT std::size_t moves_and_bounce(
     const CollisionMesh<Scalar>& mesh, const std::type_identity_t<PointsView<Scalar>>& positions,
+    const std::type_identity_t<PointsView<Scalar>>& velocities, std::type_identity_t<Scalar> seconds,
+    std::type_identity_t<std::span<Move<Scalar>>> out, const std::type_identity_t<MoveOptions<Scalar>>& options = {},
+    const Executor& executor = {}, std::type_identity_t<std::span<MoveContact<Scalar>>> contacts = {});
+
+template <class Scalar>
+PIERCE_EXPORT std::size_t moves_and_slide(
+    const DeformationStep<Scalar>& step, const std::type_identity_t<PointsView<Scalar>>& positions,
+    const std::type_identity_t<PointsView<Scalar>>& velocities, std::type_identity_t<Scalar> seconds,
+    std::type_identity_t<std::span<Move<Scalar>>> out, const std::type_identity_t<MoveOptions<Scalar>>& options = {},
+    const Executor& executor = {}, std::type_identity_t<std::span<MoveContact<Scalar>>> contacts = {});
+template <class Scalar>
+PIERCE_EXPORT std::size_t moves_and_bounce(
+    const DeformationStep<Scalar>& step, const std::type_identity_t<PointsView<Scalar>>& positions,
     const std::type_identity_t<PointsView<Scalar>>& velocities, std::type_identity_t<Scalar> seconds,
     std::type_identity_t<std::span<Move<Scalar>>> out, const std::type_identity_t<MoveOptions<Scalar>>& options = {},
     const Executor& executor = {}, std::type_identity_t<std::span<MoveContact<Scalar>>> contacts = {});

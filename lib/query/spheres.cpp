@@ -2,7 +2,7 @@
 #include <query/spheres.h>
 
 #include <query/sphere_hits.h>
-#include <query/sphere_place.h>
+#include <query/sphere_sweep.h>
 
 namespace pierce::detail {
 
@@ -12,18 +12,11 @@ std::optional<SphereHit<Scalar>> sweep_sphere(const Scene<Scalar>& scene, const 
     std::optional<SphereHit<Scalar>> hit;
     const Path path = to_path(step);
     if (scene.empty() || path.from == path.to) return hit;
-    const auto r = static_cast<double>(radius);
-    const double reach = sphere_reach(scene, path.from, r);
-    const double margin = std::max(sphere_margin(scene, r), 0x1p-43 * reach);  // place_sphere()'s grain, four times
-    const Sphere sphere(path, r, reach);
-    const SphereQuery<Scalar> query{scene, options, counters};
-    FirstEntry<Scalar> first(query, sphere, std::min(options.max_fraction, 1.0));
-    Shortlist list;
-    each_entry(scene, sphere, margin, counters, first, &list);
-    if (!first.found()) return hit;
-    const SphereWays<Scalar> ways{query, sphere, reach, margin, list};
-    const Point center = place_sphere(ways, first.best(), counters.retreats);
-    report(sphere, first.best(), side_of(scene.corners(first.best().triangle), first.best()), center, hit.emplace());
+    const SphereSweep<Scalar> sweep(scene, path, static_cast<double>(radius), std::min(options.max_fraction, 1.0),
+                                    options, counters);
+    if (!sweep.found()) return hit;
+    const SphereCandidate& first = sweep.first();
+    report(sweep.sphere(), first, side_of(scene.corners(first.triangle), first), sweep.place(), hit.emplace());
     return hit;
 }
 

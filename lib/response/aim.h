@@ -49,6 +49,34 @@ template <class Surface>
     return enough;
 }
 
+/// `end` lifted over all planes by at least `least`, in units, rounded to Scalar, so that what goes there from `from`
+/// is certainly in front of them; false: no such point is certain. `furthest`: how far it may be lifted.
+template <class Scalar, class Cast>
+[[nodiscard]] bool lift_over(const Cast& cast, const Point& from, const Point& end,
+                             std::span<const Plane<typename Cast::Surface>> planes,
+                             std::array<double, HalfSpaces::k_most> least, double furthest, Point& target) {
+    const double unit = cast.grain() / k_grain_units;
+    constexpr int k_most_tries = 5;
+    double more = 1;
+    for (int tries = 0; tries < k_most_tries; ++tries, more *= 2) {
+        HalfSpaces spaces;
+        for (std::size_t i = 0; i < planes.size(); ++i) spaces.push({planes[i].normal, least[i]});
+        Point lift{};
+        if (!spaces.nearest(furthest, lift) && !lift_in_common(planes, least, furthest, lift)) break;
+        const Point lifted = rounded_to<Scalar>(plus(end, unit, lift));
+        bool in_front = true;
+        for (std::size_t i = 0; i < planes.size(); ++i) {
+            if (cast.in_front(planes[i].surface, from, lifted)) continue;
+            in_front = false;
+            least[i] = dot_product(planes[i].normal, lift) + more;
+        }
+        if (!in_front) continue;
+        target = lifted;
+        return true;
+    }
+    return false;
+}
+
 /// From `from` by `way`, rounded to Scalar. Where no such point is certain it is where it would be without planes.
 template <class Scalar, class Cast>
 void aim(const Cast& cast, const Point& from, const Point& way, std::span<const Plane<typename Cast::Surface>> planes,
@@ -60,7 +88,6 @@ void aim(const Cast& cast, const Point& from, const Point& way, std::span<const 
     for (const Plane<typename Cast::Surface>& plane : planes)
         if (plane.height > 2 * cast.grain() && dot_product(plane.normal, way) < cast.grain())
             lowered = plus(lowered, cast.grain() - plane.height, plane.normal);
-    const Point end = plus(from, 1, lowered);
     std::array<double, HalfSpaces::k_most> least{};
     for (std::size_t i = 0; i < planes.size(); ++i) {
         // In units. The way that rounding takes is not part of it.
@@ -68,24 +95,7 @@ void aim(const Cast& cast, const Point& from, const Point& way, std::span<const 
         least[i] = (height < k_grain_units / 2 ? k_grain_units : k_grain_units / 2) - height;
     }
     constexpr double k_furthest = 64;
-    constexpr int k_most_tries = 5;
-    double more = 1;
-    for (int tries = 0; tries < k_most_tries; ++tries, more *= 2) {
-        HalfSpaces spaces;
-        for (std::size_t i = 0; i < planes.size(); ++i) spaces.push({planes[i].normal, least[i]});
-        Point lift{};
-        if (!spaces.nearest(k_furthest, lift) && !lift_in_common(planes, least, k_furthest, lift)) break;
-        const Point lifted = rounded_to<Scalar>(plus(end, unit, lift));
-        bool in_front = true;
-        for (std::size_t i = 0; i < planes.size(); ++i) {
-            if (cast.in_front(planes[i].surface, lifted)) continue;
-            in_front = false;
-            least[i] = dot_product(planes[i].normal, lift) + more;
-        }
-        if (!in_front) continue;
-        target = lifted;
-        return;
-    }
+    (void)lift_over<Scalar>(cast, from, plus(from, 1, lowered), planes, least, k_furthest, target);
 }
 
 }  // namespace pierce::detail

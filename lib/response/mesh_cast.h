@@ -12,12 +12,22 @@ namespace pierce::detail {
 /// three where its place was looked for near an edge (k_reach_units); rounding of a few slides adds to that.
 inline constexpr double k_contact_grains = 4;
 
-/// A cast is what a move loop (move_loop.h) is written over; a moving mesh or a sphere's would have the same:
+/// Whether a point is within `distance` of the prism on this side of a triangle; `normal`: the unit one on that side.
+[[nodiscard]] inline bool is_above(const Corners& corners, int side, const Point& point, const Point& normal,
+                                   double distance) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Point edge = difference_of(corners[(k + 1) % 3], corners[k]);
+        const double inside = side * dot_product(cross_product(normal, edge), difference_of(point, corners[k]));
+        if (inside < -distance * std::sqrt(dot_product(edge, edge))) return false;
+    }
+    return true;
+}
+
+/// A cast is what a move loop (move_loop.h) is written over; a sphere's has the same (sphere_cast.h):
 ///   grain()                          how near a point may come to a plane, as a length
 ///   Surface                          what was met, to be asked about again
-///   meet(from, to, begin, stop)      whether the step from -> to runs into something; `begin`: the part of the move's
-///                                    time that is over at `from`
-///   in_front(surface, point)         whether a point is certainly not behind it
+///   meet(from, to, stop)             whether the step from -> to runs into something
+///   in_front(surface, from, point)   whether what goes from a place to a point is certainly not behind it there
 ///   is_near(surface, point, normal)  whether it is next to the point, which lies near its plane
 template <class Scalar>
 class MeshCast {
@@ -42,7 +52,7 @@ class MeshCast {
 
     [[nodiscard]] double grain() const { return scene_.grain; }
 
-    [[nodiscard]] bool meet(const Point& from, const Point& to, double /*begin*/, Stop& stop) const {
+    [[nodiscard]] bool meet(const Point& from, const Point& to, Stop& stop) const {
         ++counters_.queries;
         const Path path{from, to};
         First<Scalar> first(scene_, path, counters_);
@@ -78,19 +88,12 @@ class MeshCast {
         return true;
     }
     /// Strictly, so that it is for both sides' rule as well.
-    [[nodiscard]] bool in_front(const Surface& surface, const Point& point) const {
+    [[nodiscard]] bool in_front(const Surface& surface, const Point& /*from*/, const Point& point) const {
         ++counters_.exact_sides;
         return side_of(surface.corners, point) * surface.side > 0;
     }
-    /// Within contact distance of the prism above it.
     [[nodiscard]] bool is_near(const Surface& surface, const Point& point, const Point& normal) const {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Point edge = difference_of(surface.corners[(k + 1) % 3], surface.corners[k]);
-            const Point inwards = cross_product(normal, edge);
-            const double inside = surface.side * dot_product(inwards, difference_of(point, surface.corners[k]));
-            if (inside < -k_contact_grains * scene_.grain * std::sqrt(dot_product(edge, edge))) return false;
-        }
-        return true;
+        return is_above(surface.corners, surface.side, point, normal, k_contact_grains * scene_.grain);
     }
 
   private:

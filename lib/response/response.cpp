@@ -1,4 +1,4 @@
-// The façade of responses: velocities and moves, in standard arithmetic.
+// The façade of responses: velocities by themselves, and where to draw what touches something; in standard arithmetic.
 #include <pierce/response.h>
 
 #include <atomic>
@@ -53,14 +53,6 @@ template <class Scalar>
 }
 
 template <class Scalar>
-[[gnu::noinline]] Move<Scalar> move_of(const Scene<Scalar>& scene, const Vec3<Scalar>& position,
-                                       const Vec3<Scalar>& velocity, Scalar seconds, const MoveOptions<Scalar>& options,
-                                       bool bounces, std::span<MoveContact<Scalar>> contacts, QueryCounters& counters) {
-    const MeshCast<Scalar> cast(scene, options.query, counters);
-    return MoveLoop<Scalar, MeshCast<Scalar>>(cast, options, bounces, contacts).run(position, velocity, seconds);
-}
-
-template <class Scalar>
 [[gnu::noinline]] Vec3<Scalar> lifted_from(const Vec3<Scalar>& position, std::span<const MoveContact<Scalar>> contacts,
                                            Scalar skin) {
     if (!(skin > 0) || !std::isfinite(skin)) return position;
@@ -71,44 +63,6 @@ template <class Scalar>
     constexpr double k_furthest = 8;
     if (!spaces.nearest(k_furthest, lift)) return position;
     return to_vector<Scalar>(1, plus(to_point(position), static_cast<double>(skin), lift));
-}
-
-template <class Scalar>
-Move<Scalar> move(const CollisionMesh<Scalar>& mesh, const Vec3<Scalar>& position, const Vec3<Scalar>& velocity,
-                  Scalar seconds, const MoveOptions<Scalar>& options, bool bounces,
-                  std::span<MoveContact<Scalar>> contacts) {
-    const StandardArithmetic standard;
-    const auto& impl = Inside::of(mesh);
-    QueryCounters spare;
-    QueryCounters& counters = options.query.counters != nullptr ? *options.query.counters : spare;
-    const Move<Scalar> moved = move_of(impl.scene, position, velocity, seconds, options, bounces, contacts, counters);
-    if (moved.state == MoveState::invalid) impl.count_invalid(1);
-    return moved;
-}
-
-template <class Scalar>
-std::size_t move_all(const char* call, const CollisionMesh<Scalar>& mesh, const PointsView<Scalar>& positions,
-                     const PointsView<Scalar>& velocities, Scalar seconds, std::span<Move<Scalar>> out,
-                     const MoveOptions<Scalar>& options, bool bounces, const Executor& executor,
-                     std::span<MoveContact<Scalar>> contacts) {
-    check_sizes(call, positions.size(), "positions", velocities.size(), "velocities");
-    check_sizes(call, positions.size(), "positions", out.size(), "places for answers");
-    if (out.empty()) return 0;
-    const auto& impl = Inside::of(mesh);
-    const std::size_t room = contacts.size() / out.size();
-    return in_parts(
-        out.size(), options.query.counters, executor, [&](std::size_t count) { impl.count_invalid(count); },
-        [&](std::size_t first, std::size_t last, QueryCounters& counters, std::size_t& invalid) {
-            counters.queries = 0;  // a move counts its own
-            std::size_t met = 0;
-            for (std::size_t i = first; i < last; ++i) {
-                out[i] = move_of(impl.scene, positions[i], velocities[i], seconds, options, bounces,
-                                 contacts.subspan(i * room, room), counters);
-                if (out[i].contacts > 0) ++met;
-                if (out[i].state == MoveState::invalid) ++invalid;
-            }
-            return met;
-        });
 }
 
 }  // namespace
@@ -135,22 +89,6 @@ Vec3<Scalar> bounce(const Vec3<Scalar>& velocity, const std::type_identity_t<Vec
 }
 
 template <class Scalar>
-Move<Scalar> move_and_slide(const CollisionMesh<Scalar>& mesh, const std::type_identity_t<Vec3<Scalar>>& position,
-                            const std::type_identity_t<Vec3<Scalar>>& velocity, std::type_identity_t<Scalar> seconds,
-                            const std::type_identity_t<MoveOptions<Scalar>>& options,
-                            std::type_identity_t<std::span<MoveContact<Scalar>>> contacts) noexcept {
-    return move<Scalar>(mesh, position, velocity, seconds, options, false, contacts);
-}
-
-template <class Scalar>
-Move<Scalar> move_and_bounce(const CollisionMesh<Scalar>& mesh, const std::type_identity_t<Vec3<Scalar>>& position,
-                             const std::type_identity_t<Vec3<Scalar>>& velocity, std::type_identity_t<Scalar> seconds,
-                             const std::type_identity_t<MoveOptions<Scalar>>& options,
-                             std::type_identity_t<std::span<MoveContact<Scalar>>> contacts) noexcept {
-    return move<Scalar>(mesh, position, velocity, seconds, options, true, contacts);
-}
-
-template <class Scalar>
 Vec3<Scalar> lifted(const CollisionMesh<Scalar>& mesh, const std::type_identity_t<Vec3<Scalar>>& position,
                     std::type_identity_t<std::span<const MoveContact<Scalar>>> contacts,
                     std::type_identity_t<Scalar> skin, const QueryOptions& options) noexcept {
@@ -161,46 +99,13 @@ Vec3<Scalar> lifted(const CollisionMesh<Scalar>& mesh, const std::type_identity_
     return hit ? hit->point.vec() : target;
 }
 
-template <class Scalar>
-std::size_t moves_and_slide(const CollisionMesh<Scalar>& mesh,
-                            const std::type_identity_t<PointsView<Scalar>>& positions,
-                            const std::type_identity_t<PointsView<Scalar>>& velocities,
-                            std::type_identity_t<Scalar> seconds, std::type_identity_t<std::span<Move<Scalar>>> out,
-                            const std::type_identity_t<MoveOptions<Scalar>>& options, const Executor& executor,
-                            std::type_identity_t<std::span<MoveContact<Scalar>>> contacts) {
-    return move_all<Scalar>("moves_and_slide", mesh, positions, velocities, seconds, out, options, false, executor,
-                            contacts);
-}
-
-template <class Scalar>
-std::size_t moves_and_bounce(const CollisionMesh<Scalar>& mesh,
-                             const std::type_identity_t<PointsView<Scalar>>& positions,
-                             const std::type_identity_t<PointsView<Scalar>>& velocities,
-                             std::type_identity_t<Scalar> seconds, std::type_identity_t<std::span<Move<Scalar>>> out,
-                             const std::type_identity_t<MoveOptions<Scalar>>& options, const Executor& executor,
-                             std::type_identity_t<std::span<MoveContact<Scalar>>> contacts) {
-    return move_all<Scalar>("moves_and_bounce", mesh, positions, velocities, seconds, out, options, true, executor,
-                            contacts);
-}
-
-#define PIERCE_RESPONSES(Scalar)                                                                                       \
-    template Vec3<Scalar> slide(const Vec3<Scalar>&, const Vec3<Scalar>&, const Vec3<Scalar>&) noexcept;               \
-    template Vec3<Scalar> slide(const Vec3<Scalar>&, std::span<const Vec3<Scalar>>) noexcept;                          \
-    template Vec3<Scalar> bounce(const Vec3<Scalar>&, const Vec3<Scalar>&, Scalar, Scalar,                             \
-                                 const Vec3<Scalar>&) noexcept;                                                        \
-    template Move<Scalar> move_and_slide(const CollisionMesh<Scalar>&, const Vec3<Scalar>&, const Vec3<Scalar>&,       \
-                                         Scalar, const MoveOptions<Scalar>&, std::span<MoveContact<Scalar>>) noexcept; \
-    template Move<Scalar> move_and_bounce(const CollisionMesh<Scalar>&, const Vec3<Scalar>&, const Vec3<Scalar>&,      \
-                                          Scalar, const MoveOptions<Scalar>&,                                          \
-                                          std::span<MoveContact<Scalar>>) noexcept;                                    \
-    template Vec3<Scalar> lifted(const CollisionMesh<Scalar>&, const Vec3<Scalar>&,                                    \
-                                 std::span<const MoveContact<Scalar>>, Scalar, const QueryOptions&) noexcept;          \
-    template std::size_t moves_and_slide(const CollisionMesh<Scalar>&, const PointsView<Scalar>&,                      \
-                                         const PointsView<Scalar>&, Scalar, std::span<Move<Scalar>>,                   \
-                                         const MoveOptions<Scalar>&, const Executor&, std::span<MoveContact<Scalar>>); \
-    template std::size_t moves_and_bounce(const CollisionMesh<Scalar>&, const PointsView<Scalar>&,                     \
-                                          const PointsView<Scalar>&, Scalar, std::span<Move<Scalar>>,                  \
-                                          const MoveOptions<Scalar>&, const Executor&, std::span<MoveContact<Scalar>>)
+#define PIERCE_RESPONSES(Scalar)                                                                         \
+    template Vec3<Scalar> slide(const Vec3<Scalar>&, const Vec3<Scalar>&, const Vec3<Scalar>&) noexcept; \
+    template Vec3<Scalar> slide(const Vec3<Scalar>&, std::span<const Vec3<Scalar>>) noexcept;            \
+    template Vec3<Scalar> bounce(const Vec3<Scalar>&, const Vec3<Scalar>&, Scalar, Scalar,               \
+                                 const Vec3<Scalar>&) noexcept;                                          \
+    template Vec3<Scalar> lifted(const CollisionMesh<Scalar>&, const Vec3<Scalar>&,                      \
+                                 std::span<const MoveContact<Scalar>>, Scalar, const QueryOptions&) noexcept
 PIERCE_RESPONSES(float);
 PIERCE_RESPONSES(double);
 #undef PIERCE_RESPONSES

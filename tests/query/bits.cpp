@@ -35,20 +35,22 @@ TriangleSoup<double> splinters(std::uint32_t count, std::uint64_t seed) {
     return soup;
 }
 
-// Three steps each: the first one runs into something, the others go on from there.
-template <class Scalar>
-void add_moves(Hash& hash, const CollisionMesh<Scalar>& mesh, const std::vector<Segment<Scalar>>& segments) {
-    const MoveOptions<Scalar> options{.query = {.sides = Sides::both},
-                                      .response = {.restitution = Scalar(0.5), .friction = Scalar(0.25)}};
-    for (std::size_t i = 0; i < segments.size(); i += 10) {
+// Three steps each: the first one runs into something, the others go on from there. `on`: a mesh or a step.
+template <class On, class Scalar>
+void add_moves(Hash& hash, const On& on, const std::vector<Segment<Scalar>>& segments, std::size_t every,
+               Scalar radius = 0) {
+    MoveOptions<Scalar> options{.query = {.sides = Sides::both},
+                                .response = {.restitution = Scalar(0.5), .friction = Scalar(0.25)}};
+    options.radius = radius;
+    for (std::size_t i = 0; i < segments.size(); i += every) {
         Move<Scalar> move{};
         move.position = segments[i].from;
         move.velocity = segments[i].to - segments[i].from;
         const Vec3<Scalar> push = move.velocity / 4;
         for (int step = 0; step < 3; ++step) {
             const Vec3<Scalar> velocity = step == 0 ? move.velocity : Vec3<Scalar>(move.velocity + push);
-            move = i % 20 == 0 ? move_and_slide(mesh, move.position, velocity, Scalar(1), options)
-                               : move_and_bounce(mesh, move.position, velocity, Scalar(1), options);
+            move = i % (2 * every) == 0 ? move_and_slide(on, move.position, velocity, Scalar(1), options)
+                                        : move_and_bounce(on, move.position, velocity, Scalar(1), options);
             for (int k = 0; k < 3; ++k) {
                 hash.add(bits(move.position[k]));
                 hash.add(bits(move.velocity[k]));
@@ -136,7 +138,8 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
     std::vector<std::uint8_t> any(segments.size());
     hash.add(mesh.first_hits(segments, first, {.sides = Sides::back}));
     hash.add(mesh.any_hits(segments, any));
-    add_moves(hash, mesh, segments);
+    add_moves(hash, mesh, segments, 10);
+    add_moves(hash, mesh, segments, 50, static_cast<Scalar>(scale * 0x1p-5));
     for (const auto& hit : first)
         if (hit) hash.add(*hit);
     for (const std::uint8_t hit : any) hash.add(hit);
@@ -150,6 +153,7 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
     DeformingMesh<Scalar> moving(soup.view());
     moving.begin_step(after);
     const DeformationStep<Scalar> step = moving.step();
+    add_moves(hash, step, segments, 50);
     for (std::size_t i = 0; i < segments.size(); i += 20) {
         if (const auto hit = step.after().first_hit(segments[i])) hash.add(*hit);
         const auto hit = step.sweep(segments[i], {.sides = Sides::both});

@@ -19,7 +19,7 @@ struct Planes {
     using Surface = detail::MeshCast<double>::Surface;
     double unit;
     [[nodiscard]] double grain() const { return detail::k_grain_units * unit; }
-    [[nodiscard]] static bool in_front(const Surface& surface, const Point& point) {
+    [[nodiscard]] static bool in_front(const Surface& surface, const Point& /*from*/, const Point& point) {
         return detail::side_of(surface.corners, point) * surface.side > 0;
     }
 };

@@ -226,8 +226,7 @@ TYPED_TEST(Moves, batches_are_single_calls) {
             options.query.counters = &counters;
             std::vector<Move<Scalar>> all(k_count);
             std::vector<MoveContact<Scalar>> all_contacts(k_count * k_room);
-            const auto call = bounces ? moves_and_bounce<Scalar> : moves_and_slide<Scalar>;
-            EXPECT_EQ(call(mesh, x, v, Scalar(1), all, options, executor, all_contacts), met);
+            EXPECT_EQ(move_all_either(bounces, mesh, x, v, Scalar(1), all, options, executor, all_contacts), met);
             expect_same(single, all, contacts, all_contacts);
             EXPECT_EQ(counters.queries, single_counters.queries);
             EXPECT_EQ(counters.nodes, single_counters.nodes);
@@ -236,8 +235,9 @@ TYPED_TEST(Moves, batches_are_single_calls) {
                 all[i].position = x[i];
                 all[i].velocity = v[i];
             }
-            call(mesh, {all[0].position.data(), k_count, sizeof(Move<Scalar>)},
-                 {all[0].velocity.data(), k_count, sizeof(Move<Scalar>)}, Scalar(1), all, options, executor, {});
+            const PointsView<Scalar> positions(all[0].position.data(), k_count, sizeof(Move<Scalar>));
+            const PointsView<Scalar> velocities(all[0].velocity.data(), k_count, sizeof(Move<Scalar>));
+            move_all_either(bounces, mesh, positions, velocities, Scalar(1), all, options, executor);
             expect_same<Scalar>(single, all, {}, {});
         }
     }

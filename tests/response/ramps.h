@@ -64,6 +64,18 @@ Move<Scalar> fall(const Vec3<Scalar>& from, const V& gravity, int steps, double 
     return move;
 }
 
+/// Either call, on a mesh or in a step; `given` without braces.
+template <class On, class... Given>
+auto move_either(bool bounces, const On& on, Given&&... given) {
+    return bounces ? move_and_bounce(on, std::forward<Given>(given)...)
+                   : move_and_slide(on, std::forward<Given>(given)...);
+}
+template <class On, class... Given>
+std::size_t move_all_either(bool bounces, const On& on, Given&&... given) {
+    return bounces ? moves_and_bounce(on, std::forward<Given>(given)...)
+                   : moves_and_slide(on, std::forward<Given>(given)...);
+}
+
 template <class Scalar>
 bool same_bits(const Vec3<Scalar>& x, const Vec3<Scalar>& y) {
     return same_bits(Coordinates<Scalar>(x), Coordinates<Scalar>(y));

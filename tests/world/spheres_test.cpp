@@ -3,7 +3,7 @@
 
 #include <support/sphere_oracle.h>
 #include <world/made_world.h>
-#include <world/placement.h>
+#include <rigid/placement.h>
 
 namespace pierce::test {
 namespace {
