@@ -35,7 +35,8 @@ class Character : public show::Demo {
         contacts_ = move.contacts;
         way_.push_back(position_);
         // On a floor without walls around it each step should be as long as the wish.
-        const bool is_on_flat_floor = move.state == MoveState::slid && std::abs(move.travel.y()) < 1e-4f && contacts_ <= 1;
+        const bool is_on_flat_floor =
+            move.state == MoveState::slid && std::abs(move.travel.y()) < 1e-4f && contacts_ <= 1;
         if (is_on_flat_floor) {
             flat_way_ += static_cast<double>(std::hypot(move.travel.x(), move.travel.z()));
             wished_ += static_cast<double>(k_speed * k_seconds);
@@ -46,8 +47,7 @@ class Character : public show::Demo {
     /// Whether the ball overlaps anything, exactly.
     [[nodiscard]] bool overlaps() const {
         std::vector<pierce::SphereHit<float>> contacts(8);
-        const std::size_t count =
-            std::min(mesh_.sphere_contacts(position_, k_radius, contacts), contacts.size());
+        const std::size_t count = std::min(mesh_.sphere_contacts(position_, k_radius, contacts), contacts.size());
         return std::any_of(contacts.begin(), contacts.begin() + static_cast<std::ptrdiff_t>(count),
                            [](const auto& contact) { return contact.overlap > 0; });
     }
@@ -74,8 +74,8 @@ class Character : public show::Demo {
     }
     [[nodiscard]] std::string summary() const override {
         std::ostringstream text;
-        text << steps_ << " steps, " << contacts_ << " contacts in the last one, " << (overlaps() ? "overlaps" : "clear")
-             << "\nway kept on the flat floor: " << 100 * kept() << " %\n";
+        text << steps_ << " steps, " << contacts_ << " contacts in the last one, "
+             << (overlaps() ? "overlaps" : "clear") << "\nway kept on the flat floor: " << 100 * kept() << " %\n";
         return text.str();
     }
 

@@ -40,9 +40,8 @@ class Drum : public show::Demo {
         mesh_.begin_step(pose, pierce::tbb_executor());
         std::vector<Vec3> velocities;
         for (const Move& grain : grains_) velocities.push_back(grain.velocity - Vec3(0, k_gravity * k_seconds, 0));
-        const pierce::MoveOptions<float> options = {.response = {.restitution = restitution_,
-                                                                 .friction = friction_,
-                                                                 .rest_speed = 2 * k_gravity * k_seconds}};
+        const pierce::MoveOptions<float> options = {
+            .response = {.restitution = restitution_, .friction = friction_, .rest_speed = 2 * k_gravity * k_seconds}};
         const pierce::PointsView<float> positions(grains_.front().position.data(), grains_.size(), sizeof(Move));
         pierce::moves_and_bounce(mesh_.step(), positions, velocities, k_seconds, grains_, options,
                                  pierce::tbb_executor());
@@ -69,9 +68,10 @@ class Drum : public show::Demo {
     [[nodiscard]] std::vector<show::Dot> dots() const override {
         std::vector<show::Dot> dots;
         for (const Move& grain : grains_)
-            dots.push_back({grain.position.cast<double>(),
-                            grain.state == MoveState::free ? show::Colour(0.25f, 0.5f, 0.9f) : show::Colour(0.9f, 0.6f, 0.2f),
-                            0.008});
+            dots.push_back(
+                {grain.position.cast<double>(),
+                 grain.state == MoveState::free ? show::Colour(0.25f, 0.5f, 0.9f) : show::Colour(0.9f, 0.6f, 0.2f),
+                 0.008});
         return dots;
     }
     void panel() override {

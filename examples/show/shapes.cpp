@@ -104,7 +104,8 @@ pierce::TriangleSoup<float> paddle_drum() {
     std::vector<Eigen::Vector2f> outline;
     const auto add_point = [&](double degrees, double radius) {
         const double angle = degrees * std::numbers::pi / 180;
-        outline.emplace_back(static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle)));
+        outline.emplace_back(static_cast<float>(radius * std::cos(angle)),
+                             static_cast<float>(radius * std::sin(angle)));
     };
     for (int paddle = 0; paddle < 6; ++paddle) {
         for (int k = 0; k < 7; ++k) add_point(60 * paddle + 8 * k, 1);

@@ -18,8 +18,8 @@ pierce::TriangleSoup<float> box(int n, const Eigen::Affine3d& transform);
 void add(pierce::TriangleSoup<float>& soup, const pierce::TriangleSoup<float>& more, bool turned = false);
 
 /// A level of a game: a closed hall of 40 x 12 x 40 whose walls face inwards, with crates and boulders that face
-/// outwards and do not meet. The winding number is -1 where there is room, 0 in solid matter and outside. `frame` says where its
-/// lower corner and its axes are: far from the origin floats are coarse.
+/// outwards and do not meet. The winding number is -1 where there is room, 0 in solid matter and outside. `frame` says
+/// where its lower corner and its axes are: far from the origin floats are coarse.
 pierce::TriangleSoup<float> hall(std::uint32_t seed, const Eigen::Isometry3d& frame);
 
 /// A closed drum of radius 1 around the z axis, 1 long, with six paddles inside. Its faces look inwards.

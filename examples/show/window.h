@@ -26,8 +26,8 @@ class Window {
     [[nodiscard]] bool is_open() const;
     /// What is drawn from now on. Sides that are not seen one looks through.
     void set_mesh(const pierce::TriangleSoup<float>& soup, const Paint& paint);
-    /// Draws a frame, and waits for the display. `panel` may call Dear ImGui: a window of its own is open. `screenshot`,
-    /// if given, becomes what is seen.
+    /// Draws a frame, and waits for the display. `panel` may call Dear ImGui: a window of its own is open. What is seen
+    /// goes to `screenshot`, if given.
     void frame(std::span<const Dot> dots, std::span<const Line> lines, const std::function<void()>& panel,
                Image* screenshot = nullptr);
 

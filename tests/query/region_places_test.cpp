@@ -47,9 +47,9 @@ TYPED_TEST(RegionPlaces, faces_that_pass_through_each_other_are_not_found_but_fl
     EXPECT_FALSE(legs[1].consistent);
 }
 
-// The left wall of a box within a box coincides with that of the outer one, and its labels are wrong: region 7 before it.
-// Beyond both a place would be in a region that the labels don't tell from the way there: 2 by the wall that was crossed,
-// 9 by all others.
+// The left wall of a box within a box coincides with that of the outer one, and its labels are wrong: region 7 before
+// it. Beyond both a place would be in a region that the labels don't tell from the way there: 2 by the wall that was
+// crossed, 9 by all others.
 TYPED_TEST(RegionPlaces, the_region_of_a_place_is_that_of_the_point_also_where_labels_are_wrong) {
     using Scalar = TypeParam;
     RegionModel<Scalar> model;
