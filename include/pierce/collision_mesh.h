@@ -128,8 +128,8 @@ class PIERCE_EXPORT CollisionMesh : public MotionSweeps<Scalar> {
     /// are then the ray's t, the exact one within 1 ulp, or the largest number where t is above it. The rules are those
     /// of the segment that ends at the ray's true end, and so are the promises: the way from `origin` to the hit's
     /// `point` has no hit, so that a chain of rays from point to point cannot get through a closed surface. A ray
-    /// visits what the part of it in the mesh's box visits, from origins up to some 2^80 mesh sizes away; what a hit's values
-    /// cost from far away is said above. (Templates, so that `first_hit({from, to})` is a segment.)
+    /// visits what the part of it in the mesh's box visits, from origins up to some 2^80 mesh sizes away; what a hit's
+    /// values cost from far away is said above. (Templates, so that `first_hit({from, to})` is a segment.)
     template <std::same_as<Ray<Scalar>> Way>
     [[nodiscard]] std::optional<Hit<Scalar>> first_hit(const Way& ray,
                                                        const QueryOptions& options = {}) const noexcept {

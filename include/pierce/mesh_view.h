@@ -13,8 +13,8 @@
 namespace pierce {
 
 /// The corners of `size()` triangles, as indices of 32 bits, signed or not, or of 16: three in a row, and from one
-/// triangle to the next a fixed number of bytes. A `std::vector<IndexTriple>`, the flat index buffer of a game (a list, not a strip), or a
-/// part of either. Not owned, nothing is copied.
+/// triangle to the next a fixed number of bytes. A `std::vector<IndexTriple>`, the flat index buffer of a game (a list,
+/// not a strip), or a part of either. Not owned, nothing is copied.
 class TrianglesView {
   public:
     TrianglesView() = default;
