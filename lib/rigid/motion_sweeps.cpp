@@ -115,9 +115,10 @@ template <class Scalar>
 std::size_t MotionSweeps<Scalar>::sweeps_turning(const Segments<Scalar>& ways, const RigidMotion& motion,
                                                  std::span<std::optional<RigidHit<Scalar>>> out,
                                                  const QueryOptions& options, const Executor& executor) const {
+    const auto& impl = impl_of(*this);
     const Turn* const turn = motion.turn_.get();
     return sweep_each(
-        *impl_, ways, out, options, executor,
+        impl, ways, out, options, executor,
         [&](const Segment<Scalar>& way, QueryCounters& counters, bool& valid) -> std::optional<RigidHit<Scalar>> {
             Point start{};
             Point end{};

@@ -50,7 +50,7 @@ struct Particle {
     std::optional<Vec3<Scalar>> local;  ///< where it rides
     Vec3<double> velocity;
     bool inside;
-    int kind;  ///< rests, bounces, goes with what it meets
+    int kind;  ///< rests, bounces, rides on what it meets
 };
 
 /// Returns whether it went where it wanted to.
@@ -79,7 +79,8 @@ bool move(Particle<Scalar>& p, const CollisionMesh<Scalar>& mesh, const RigidMot
         if (attempt < 2 && p.kind != 2) continue;
         p.at = hit->place;
         p.local.reset();
-        if (!hit->place_verified) p.local = hit->local.vec(), ++tally.rides;
+        tally.rides += hit->place_verified ? 0 : 1;
+        if (!hit->place_verified || p.kind == 2) p.local = hit->local.vec();
         return false;
     }
 }
