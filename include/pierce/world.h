@@ -53,7 +53,7 @@ struct WorldStatistics {
 /// `MeshId::index`, then face, then triangle. So:
 ///
 /// - A mesh without a pose has L(p) = p. A world of such meshes answers as one mesh of all their triangles would,
-///   exactly, winding numbers of open meshes excepted.
+///   exactly, but for winding numbers of open meshes, and for passages, which are of one mesh each.
 /// - A mesh that is only translated has for L(p) the difference, rounded once (float: to double, then to float). Where
 ///   p - translation is a number of the type, as on a lattice, the decision is exact in the world too. So it is for
 ///   rotations that only swap axes and signs.

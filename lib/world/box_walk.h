@@ -147,8 +147,7 @@ void each_box(const BoxTree& tree, const BoxProbe& probe, double limit, QueryCou
     const BoxTree::Node& top = tree.node(tree.root());
     Entry here{top.leaf() ? BoxTree::leaf_of(top.right) : tree.root(), probe.entry(top, limit)};
     for (;;) {
-        // What is missed is at infinity.
-        if (here.at <= limit || BoxProbe::is_before(here.at, limit)) {
+        if (BoxProbe::is_before(here.at, limit)) {  // what is missed is at infinity
             if (BoxTree::is_leaf(here.child)) {
                 limit = visit(static_cast<std::uint32_t>(BoxTree::leaf_of(here.child)), limit);
             } else {

@@ -121,6 +121,61 @@ TYPED_TEST(WorldSpheres, balls_run_into_what_the_meshes_say) {
     EXPECT_GT(contacts, 1000U);
 }
 
+// Along a face, a grain off it, into one of another mesh: beside valleys a place is tried again until all are clear.
+TYPED_TEST(WorldSpheres, places_in_corners_are_clear_of_all_meshes) {
+    using Scalar = TypeParam;
+    std::uint64_t retreats = 0;
+    MadeWorld<Scalar> made(0, 25);
+    Random random(26);
+    const TriangleSoup<Scalar> soup = moved<Scalar>(polycube(1, 1, 1, 1), 4, {-2, -2, -2});
+    const auto mesh = shared_mesh(soup);
+    for (int i = 0; i < 12; ++i) {
+        InstanceOptions<Scalar> options;
+        options.pose.translation = (4 * random.in_cube()).template cast<Scalar>();
+        options.pose.rotation = rotation_of<Scalar>(6, random.between_ints(-2, 2), random.between_ints(-2, 2), 1);
+        made.naive.members.push_back({made.world.add(mesh, options), soup, mesh, 0xffffffff, {}, options.pose});
+    }
+    const auto radius = static_cast<Scalar>(0.05);
+    for (int i = 0; i < 3000; ++i) {
+        Segment<Scalar> step{(5 * random.in_cube()).template cast<Scalar>(),
+                             (5 * random.in_cube()).template cast<Scalar>()};
+        for (int slide = 0; slide < 3; ++slide) {
+            QueryCounters counters;
+            const auto hit = made.world.sweep_sphere(step, radius, {.counters = &counters});
+            if (!hit) break;
+            retreats += counters.retreats;
+            for (const auto& member : made.naive.members)
+                EXPECT_FALSE(member.mesh->sweep_sphere(made.naive.image(member, {step.from, hit->hit.center}), radius));
+            const Vec3<double> n = hit->hit.normal.template cast<double>();
+            const Vec3<double> way = 3 * random.in_cube();
+            const Vec3<double> to = hit->hit.center.template cast<double>() + way - n.dot(way) * n;
+            step = {hit->hit.center, to.template cast<Scalar>()};
+        }
+    }
+    EXPECT_GT(retreats, 20U);
+}
+
+// The grain is that of the larger numbers, the mesh's or the world's: else rounding of images would take places back.
+TYPED_TEST(WorldSpheres, places_allow_for_the_rounding_of_images) {
+    using Scalar = TypeParam;
+    Random random(27);
+    const Vec3<double> away = Vec3<double>(1000, 2000, -1000);
+    World<Scalar> world;
+    InstanceOptions<Scalar> options;
+    options.pose.translation = (-away).cast<Scalar>();
+    (void)world.add(shared_mesh(moved<Scalar>(bumpy_sphere(4), 1, away)), options);
+    QueryCounters counters;
+    std::uint64_t hits = 0;
+    for (int i = 0; i < 500; ++i) {
+        const Segment<Scalar> step{(3 * random.direction()).template cast<Scalar>(),
+                                   (0.3 * random.in_cube()).template cast<Scalar>()};
+        if (world.sweep_sphere(step, Scalar(0.1), {.counters = &counters})) ++hits;
+    }
+    std::cout << hits << " hits, " << counters.retreats << " places taken back\n";
+    EXPECT_GT(hits, 400U);
+    EXPECT_LT(counters.retreats, hits / 10);
+}
+
 // A world of one mesh that stands still says what the mesh says, to the last bit.
 TYPED_TEST(WorldSpheres, one_mesh_that_stands_still_is_that_mesh) {
     using Scalar = TypeParam;
