@@ -68,7 +68,7 @@ class MovingLoop {
         const MovingCandidate first = met;
         do {
             const bool follows = meet(target, met);
-            if (!are_finite(turns_.velocity())) return invalid();  // so short a step
+            if (!are_finite(rounded_to<Scalar>(turns_.velocity()))) return invalid();  // so short a step
             if (follows) target = aimed();
             if (!follows || !are_finite(target) || move_.casts >= options_.max_casts)
                 return stays(position, first_way, first);

@@ -1,14 +1,10 @@
 // The façade of responses: velocities by themselves, and where to draw what touches something; in standard arithmetic.
 #include <pierce/response.h>
 
-#include <atomic>
-
 #include <environment.h>
-#include <query/batch_sizes.h>
-#include <query/inside.h>
-#include <query/parts.h>
-#include <response/mesh_cast.h>
-#include <response/move_loop.h>
+#include <query/half_spaces.h>
+#include <query/ways.h>
+#include <response/velocity.h>
 
 namespace pierce {
 
