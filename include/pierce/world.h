@@ -56,7 +56,7 @@ struct WorldStatistics {
 ///   p - translation is a number of the type, as on a lattice, the decision is exact in the world too. So it is for
 ///   rotations that only swap axes and signs.
 /// - For other poses L is off by rounding: L(p) stands for a world point within 2^-46 |p - translation| of p for
-///   double, and 2^-23 |p - translation| for float (derived in lib/world/placement.h).
+///   double, and 2^-23 |p - translation| for float (derived in lib/rigid/placement.h).
 /// - An image depends on the point alone. So a chain of steps p0 -> p1 -> p2 is a connected chain in the coordinates of
 ///   each mesh, and can't get through a closed one, however it is turned, as long as its pose stays.
 /// - `Hit::point` is verified by the same rule: in no mesh has the way from L(from) to L(point) a hit that counts. As
