@@ -18,7 +18,7 @@ namespace pierce {
 /// is false only the latter is.
 template <class Scalar>
 struct RigidHit {
-    /// A part of the step in [0, 1]: no chord has a hit before it, and the first hit is at most 2 ulp later.
+    /// A part of the step in [0, 1]: no chord has a hit before it, and the first hit is a few ulp later at most.
     Scalar time;
     /// A place for the point at the **end** of the step, in the world. Where `place_verified` is true the way to
     /// `local` from the beginning of the chord that hits has no hit in the mesh, under the same options, and `local` is

@@ -77,6 +77,8 @@ Question<Scalar> question(const TriangleSoup<Scalar>& soup, bool on_lattice, Ran
         const Vec3<double> p = soup.positions[t[0]].template cast<double>();
         d = soup.positions[t[1]].template cast<double>() - p;
     }
+    // From far away to far away: there the rounded way is further off than the mesh's own rounding.
+    if (random.chance(0.3)) d *= std::ldexp(1.0, random.between_ints(1, 16));
     const double beyond = random.chance(0.3) ? 0 : random.chance(0.3) ? -0x1p-30 : 1;
     const double before = random.chance(0.2) ? 0 : 1;
     const Vec3<double> from = target - before * d + start;
