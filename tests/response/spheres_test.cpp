@@ -203,21 +203,48 @@ TYPED_TEST(Balls, in_corners_and_grooves_stay) {
 // One that overlaps may go on along what it overlaps, and no deeper.
 TYPED_TEST(Balls, that_overlap_are_not_stuck) {
     using Scalar = TypeParam;
-    TriangleSoup<Scalar> soup;  // of two triangles: those beside it are met as well
-    add_floor<Scalar>(soup, V(-10, -5, 0), V::UnitX(), V::UnitY(), 1, 20);
-    const CollisionMesh<Scalar> mesh(soup.view());
+    Random random(5);
     MoveOptions<Scalar> options;
     options.radius = 1;
-    const Vec3<Scalar> from(Scalar(0.2), Scalar(0.1), Scalar(0.75));
-    const Move<Scalar> along = move_and_slide(mesh, from, Vec3<Scalar>(2, 0, -1), Scalar(1), options);
-    EXPECT_NEAR(double(along.position[0]), 2.2, 1e-5);
-    EXPECT_GE(along.position[2], Scalar(0.75));
-    EXPECT_LE(along.position[2], Scalar(0.7501));
-    const Move<Scalar> off = move_and_slide(mesh, from, Vec3<Scalar>(0, 0, 3), Scalar(1), options);
-    EXPECT_EQ(off.state, MoveState::free);
-    EXPECT_EQ(off.position[2], Scalar(3.75));
-    const Move<Scalar> down = move_and_slide(mesh, from, Vec3<Scalar>(0, 0, -3), Scalar(1), options);
-    EXPECT_TRUE(same_bits(down.position, from));
+    for (int i = 0; i < 20; ++i) {
+        const V up = i == 0 ? V(0, 0, 1) : random.direction();
+        const V u = up.unitOrthogonal();
+        TriangleSoup<Scalar> soup;  // of two triangles: those beside it would be met as well
+        add_floor<Scalar>(soup, -10 * u - 5 * up.cross(u), u, up.cross(u), 1, 20);
+        const CollisionMesh<Scalar> mesh(soup.view());
+        const Vec3<Scalar> from = V(0.2 * u + 0.1 * up.cross(u) + 0.75 * up).template cast<Scalar>();
+        const auto gone = [&](const V& velocity, MoveState state) {
+            const Move<Scalar> move = move_and_slide(mesh, from, velocity.cast<Scalar>(), Scalar(1), options);
+            EXPECT_EQ(move.state, state) << i;
+            return V(move.travel.template cast<double>());
+        };
+        EXPECT_LE((gone(2 * u - up, MoveState::slid) - 2 * u).norm(), 1e-5) << i;
+        EXPECT_LE((gone(3 * up, MoveState::free) - 3 * up).norm(), 1e-5) << i;
+        EXPECT_TRUE(i > 0 || gone(-3 * up, MoveState::resting) == V::Zero());
+    }
+}
+
+// Off the end of a platform, and against a wall that leans over: as points do, it slides down that.
+TYPED_TEST(Balls, are_not_held_by_what_they_left_behind) {
+    using Scalar = TypeParam;
+    for (const double offset : {0.0, 1e3}) {
+        const V middle = offset * V(1, 1, 1);
+        TriangleSoup<Scalar> soup;
+        add_floor<Scalar>(soup, middle + V(-4, -2, 0), V::UnitX(), V::UnitY(), 4, 1);
+        add_floor<Scalar>(soup, middle + V(-1, -4, 3), V::UnitY(), V(1, 0, -1) * std::sqrt(0.5), 8, 1);
+        const CollisionMesh<Scalar> mesh(soup.view());
+        MoveOptions<Scalar> options;
+        options.radius = Scalar(0.2);
+        const Vec3<Scalar> from = (middle + V(-1, 0.3, 0.201)).template cast<Scalar>();
+        const Move<Scalar> move = move_and_slide(mesh, from, Vec3<Scalar>(4, 0, Scalar(-0.1)), Scalar(1), options);
+        const double unit = k_epsilon<Scalar> * (offset + 8);
+        EXPECT_EQ(move.contacts, 2U);
+        // The wall is x + z = 2; half of the speed is left along it.
+        EXPECT_NEAR(double(move.velocity[0]), 2, 64 * unit);
+        EXPECT_NEAR(double(move.velocity[2]), -2, 64 * unit);
+        const double rest = 1 - (2 - 0.2 - 0.2 * std::sqrt(2.0) + 1) / 4;
+        EXPECT_NEAR(double(move.position[2]) - offset, 0.2 - 2 * rest, 0.01 + 64 * unit);
+    }
 }
 
 TYPED_TEST(Balls, bounce_as_points_do) {
