@@ -107,12 +107,12 @@ void check() {
         std::array<WorldTouch, 8> world_touches;
         std::array<MeshId, 8> world_meshes;
         for (std::size_t i = 0; i < segments.size(); i += 25) {
-            const std::size_t count = world.passages(segments[i], world_passages) +
+            const std::size_t found = world.passages(segments[i], world_passages) +
                                       world.locate(segments[i].to, world_touches).face_count +
                                       world.containing(segments[i].to, world_meshes) +
                                       world.sphere_hits(segments[i], Scalar(0.1), world_contacts) +
                                       std::size_t{world.sweep_sphere(segments[i], Scalar(0.1)).has_value()};
-            any[i] = count > 3 ? 1 : 0;
+            any[i] = found > 3 ? 1 : 0;
         }
         for (std::size_t i = 0; i < 20; ++i) world.set_pose({static_cast<std::uint32_t>(i), 1}, {});
     });
