@@ -22,7 +22,8 @@ class InsideJudge {
     }
     enum class Where { outside, inside, unknown };
 
-    /// Two ways that disagree, or pass through more or less than a solid: unknown, as for a point of the surface.
+    /// On the surface counts as in front of it: outside, or of a mesh turned inside out inside. Two ways that disagree, or
+    /// pass through more or less than a solid: unknown.
     [[nodiscard]] Where where(const Vec3<Scalar>& point) {
         int winding[2];
         for (int& w : winding) {
@@ -30,7 +31,7 @@ class InsideJudge {
             w = winding_number(detail::to_point(point), {far[0], far[1], far[2]});
         }
         if (winding[0] != winding[1]) return Where::unknown;
-        return winding[0] == 1 ? Where::inside : winding[0] == 0 ? Where::outside : Where::unknown;
+        return std::abs(winding[0]) == 1 ? Where::inside : winding[0] == 0 ? Where::outside : Where::unknown;
     }
 
   private:

@@ -91,7 +91,9 @@ Tally play(const TriangleSoup<double>& shape, int count, int steps, double offse
     const TriangleSoup<Scalar> soup = moved<Scalar>(shape, 1, {0, 0, 0});
     const CollisionMesh<Scalar> mesh(soup.view());
     EXPECT_TRUE(mesh.mesh_report().closed());
+    // On the surface is on the side that a particle is to stay on.
     InsideJudge<Scalar> judge(soup);
+    InsideJudge<Scalar> judge_of_inside(turned_inside_out(soup));
     using Where = typename InsideJudge<Scalar>::Where;
     Pose<double> pose;
     pose.translation = Vec3<double>(offset, -offset, offset);
@@ -113,7 +115,7 @@ Tally play(const TriangleSoup<double>& shape, int count, int steps, double offse
         for (Particle<Scalar>& p : particles) {
             const bool rode = p.local.has_value();
             const Long3 from = p.at.template cast<long double>();
-            if (move(p, mesh, motion, tally) && is_door && !rode)
+            if (move(p, mesh, motion, tally) && is_door && !p.inside && !rode)
                 for (int part = 0; part <= 32; ++part) {
                     const long double time = part / 32.0L;
                     const Long3 at = from + time * (p.at.template cast<long double>() - from);
@@ -123,7 +125,7 @@ Tally play(const TriangleSoup<double>& shape, int count, int steps, double offse
                 }
             const Vec3<Scalar> local = p.local ? *p.local : motion.end_in_mesh(p.at);
             const double far = local.template cast<double>().cwiseAbs().maxCoeff();
-            const Where where = far > 7 ? Where::outside : judge.where(local);
+            const Where where = far > 7 ? Where::outside : p.inside ? judge_of_inside.where(local) : judge.where(local);
             if (where == Where::unknown)
                 ++tally.unknown;
             else if ((where == Where::inside) != p.inside)
