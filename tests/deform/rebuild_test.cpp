@@ -140,7 +140,7 @@ TYPED_TEST(Rebuilds, AnswerAsAFreshBuild) {
                 soup.positions = waving<Scalar>(rest, 0.05 * frame);
                 // Some frames take the clusters apart, some make a refit of them.
                 if (frame % 7 == 5) soup.positions = deformed<Scalar>(rest, random);
-                if (frame % 9 == 4)
+                if (frame % 4 == 1)
                     mesh.refit(soup.positions);
                 else if (frame % 2 == 0)
                     mesh.rebuild(soup.positions);
