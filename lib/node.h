@@ -40,11 +40,13 @@ struct alignas(64) CoarseNode {
 };
 static_assert(sizeof(Node) == 256 && sizeof(CoarseNode) == 256);
 
-/// `root` names a node, or a cluster where there is only one. `coarse`: nodes are CoarseNodes.
+/// `root` names a node, or a cluster where there is only one. `coarse`: nodes are CoarseNodes. A
+/// segment that is shorter along each axis than `short_way`, in scene units, goes through it by its box.
 struct TreeView {
     const void* nodes = nullptr;
     std::uint32_t root = 0;
     bool coarse = false;
+    float short_way = 0;
 };
 
 }  // namespace pierce::detail

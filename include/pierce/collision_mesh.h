@@ -92,16 +92,16 @@ class PIERCE_EXPORT CollisionMesh : public MotionSweeps<Scalar> {
     /// it was built in: `refit_cost` says by how much. A mesh in which a triangle has an area that had none when it was
     /// built, or none has any more, is built anew instead.
     ///
-    /// Not for one mesh and two threads at the same time: nobody may ask the mesh anything meanwhile (`DeformingMesh`
-    /// has states that stay). Throws std::invalid_argument where there are not as many positions as vertices, and
-    /// `MeshError` for one that is not finite, and the mesh stays as it was; where memory runs out it has no triangles
-    /// any more. The first call makes what all need: some 40 bytes a triangle.
+    /// Nobody may ask the mesh anything meanwhile (`DeformingMesh` has states that stay). Throws std::invalid_argument
+    /// where there are not as many positions as vertices, `MeshError` for one that is not finite, and the mesh stays as
+    /// it was; where memory runs out it has no triangles any more. The first call makes 40 bytes a triangle.
     void refit(const PointsView<Scalar>& positions, const Executor& executor = {});
     /// The same where only some vertices moved: of `positions`, which has all, only those of `changed` are looked at,
     /// and the others are where they were. The time is that of the clusters around them, and of the nodes above these.
     /// std::invalid_argument: there is no vertex of that number. The first call makes 20 bytes a triangle more.
     void refit(const PointsView<Scalar>& positions, std::span<const std::uint32_t> changed);
-    /// The same as `refit`, by a build: in the time of the constructor, less the copy of the triangles.
+    /// The same as `refit`, by a build: in the time of the constructor, less a copy of the triangles, or in half of it
+    /// where triangles that were near one another still are, and are kept together (for seven calls in a row at most).
     void rebuild(const PointsView<Scalar>& positions, const Executor& executor = {});
     /// What a query may be expected to go through, in nodes and clusters by the areas of their boxes (the surface area
     /// heuristic, Goldsmith and Salmon 1987), in parts of what it was when the mesh was built: 1 without a refit since

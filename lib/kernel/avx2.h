@@ -42,6 +42,18 @@ struct Avx2 {
         return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(x))));
     }
 
+    // Whole numbers, for boxes: how far x is above y, 0 where it is not.
+    static constexpr unsigned words_width = 16;
+    using Words = __m256i;
+    static Words all_words(std::uint16_t x) { return _mm256_set1_epi16(static_cast<short>(x)); }
+    static Words load_words(const std::uint16_t* x) { return _mm256_load_si256(reinterpret_cast<const __m256i*>(x)); }
+    static Words above(Words x, Words y) { return _mm256_subs_epu16(x, y); }
+    static Words either(Words x, Words y) { return _mm256_or_si256(x, y); }
+    static unsigned zeros(Words x) {
+        const __m256i same = _mm256_cmpeq_epi16(x, _mm256_setzero_si256());
+        return _pext_u32(static_cast<unsigned>(_mm256_movemask_epi8(same)), 0x55555555U);
+    }
+
     static Float key(Float entry, unsigned first) {
         const __m256i places =
             _mm256_add_epi32(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(static_cast<int>(first)));

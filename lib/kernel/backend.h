@@ -15,7 +15,7 @@ template <class Scalar>
 struct ScalarKernels {
     /// Makes a segment ready. False: it certainly touches nothing.
     bool (*set_probe)(const Frame& frame, const double* from, const double* to, bool ray, bool front_only,
-                      bool back_only, Probe<Scalar>& probe);
+                      bool back_only, float short_way, Probe<Scalar>& probe);
     /// Visits the clusters of which triangles may be hit at a parameter up to `limit`, nearest first (traverse.h);
     /// counts in the probe.
     void (*traverse)(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit,

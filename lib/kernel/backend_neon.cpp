@@ -37,6 +37,17 @@ struct Neon {
         return vcvtq_f32_u32(vmovl_u16(vget_low_u16(vmovl_u8(vcreate_u8(four)))));
     }
 
+    static constexpr unsigned words_width = 8;
+    using Words = uint16x8_t;
+    static Words all_words(std::uint16_t x) { return vdupq_n_u16(x); }
+    static Words load_words(const std::uint16_t* x) { return vld1q_u16(x); }
+    static Words above(Words x, Words y) { return vcgtq_u16(x, y); }
+    static Words either(Words x, Words y) { return vorrq_u16(x, y); }
+    static unsigned zeros(Words x) {
+        const uint16x8_t bit = {1, 2, 4, 8, 16, 32, 64, 128};
+        return vaddvq_u16(vbicq_u16(bit, x));
+    }
+
     static Float key(Float entry, unsigned first) {
         const uint32x4_t lanes = {0, 1, 2, 3};
         const uint32x4_t places = vaddq_u32(lanes, vdupq_n_u32(first));

@@ -33,6 +33,14 @@ struct Plain {
     static Float words(const std::uint16_t* x) { return *x; }
     static Float bytes(const std::uint8_t* x) { return *x; }
 
+    static constexpr unsigned words_width = 1;
+    using Words = std::uint16_t;
+    static Words all_words(std::uint16_t x) { return x; }
+    static Words load_words(const std::uint16_t* x) { return *x; }
+    static Words above(Words x, Words y) { return x > y ? 1 : 0; }
+    static Words either(Words x, Words y) { return static_cast<Words>(x | y); }
+    static unsigned zeros(Words x) { return x == 0 ? 1 : 0; }
+
     static Float key(Float entry, unsigned first) {
         std::uint32_t x;
         __builtin_memcpy(&x, &entry, sizeof x);

@@ -41,6 +41,17 @@ struct Sse2 {
         return _mm_cvtepi32_ps(_mm_unpacklo_epi16(_mm_unpacklo_epi8(_mm_cvtsi32_si128(four), zero), zero));
     }
 
+    static constexpr unsigned words_width = 8;
+    using Words = __m128i;
+    static Words all_words(std::uint16_t x) { return _mm_set1_epi16(static_cast<short>(x)); }
+    static Words load_words(const std::uint16_t* x) { return _mm_load_si128(reinterpret_cast<const __m128i*>(x)); }
+    static Words above(Words x, Words y) { return _mm_subs_epu16(x, y); }
+    static Words either(Words x, Words y) { return _mm_or_si128(x, y); }
+    static unsigned zeros(Words x) {
+        const __m128i same = _mm_cmpeq_epi16(x, _mm_setzero_si128());
+        return static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(same, _mm_setzero_si128())));
+    }
+
     static Float key(Float entry, unsigned first) {
         const __m128i places = _mm_add_epi32(_mm_setr_epi32(0, 1, 2, 3), _mm_set1_epi32(static_cast<int>(first)));
         return _mm_castsi128_ps(_mm_or_si128(_mm_and_si128(_mm_castps_si128(entry), _mm_set1_epi32(~15)), places));

@@ -27,6 +27,11 @@ struct Probe {
     float far[4];
     std::uint32_t near_row[4];  ///< of the bounds: 2k, or 2k + 1 where the direction goes down along axis k
 
+    // In place of these, of a short segment: the box around it, on the scene's lattice (box_test.h).
+    std::uint16_t low[4];
+    std::uint16_t high[4];
+    bool by_box;
+
     // The test of a cluster. For float in the caller's units, for double in scene units.
     Scalar corner_origin[4];
     float corner_direction[4];

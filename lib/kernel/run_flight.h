@@ -23,31 +23,50 @@ class FlightRun {
         free_count_ = k_flights;
         for (;;) {
             start_queries();
-            if (at_node_count_ + at_cluster_count_ == 0) return;
-            enter_nodes();
+            if (at_node_count_[k_slabs] + at_node_count_[k_boxes] + at_cluster_count_ == 0) return;
+            enter_nodes<k_slabs>();
+            if constexpr (k_lattice) enter_nodes<k_boxes>();
             // Few clusters wait for more, as long as there are queries that may come to some.
-            if (at_cluster_count_ >= k_flights / 2 || at_node_count_ <= k_flights / 4) test_clusters();
-            pop_stacks();
+            const unsigned at_node_count = at_node_count_[k_slabs] + at_node_count_[k_boxes];
+            if (at_cluster_count_ >= k_flights / 2 || at_node_count <= k_flights / 4) test_clusters();
+            pop_stacks<k_slabs>();
+            if constexpr (k_lattice) pop_stacks<k_boxes>();
         }
     }
 
   private:
+    // How a query goes through nodes: lists of their own, so that no branch depends on which it is.
+    static constexpr unsigned k_slabs = 0;
+    static constexpr unsigned k_boxes = 1;  // only on the scene's lattice
+    static constexpr bool k_lattice = sizeof(AnyNode::bounds) == sizeof(Node::bounds);
+
+    // What a query of the second kind keeps in place of keys.
+    struct ByBox {
+        Box<Triangles> box;
+        unsigned left[k_flight_depth];  // a bit for each child that is left
+    };
     struct Query {
         Probe<Scalar> probe;
-        Sixteen<Wide> keys[k_flight_depth];
+        union {
+            Sixteen<Wide> keys[k_flight_depth];
+            ByBox by_box;
+        };
         std::uint32_t node[k_flight_depth];
         std::uint32_t child;
         std::uint32_t limit_key;
         unsigned depth;
         unsigned lanes;
+        unsigned kind;
         float limit;
+
+        Query() {}  // no member has a value yet
     };
     using List = unsigned char[k_flights + 1];  // one more: what is not kept is written as well
 
-    [[gnu::always_inline]] void go_to(unsigned slot, std::uint32_t child) {
+    [[gnu::always_inline]] void go_to(unsigned slot, unsigned kind, std::uint32_t child) {
         const unsigned leaf = child >> 31;
-        at_node_[at_node_count_] = static_cast<unsigned char>(slot);
-        at_node_count_ += 1 - leaf;
+        at_node_[kind][at_node_count_[kind]] = static_cast<unsigned char>(slot);
+        at_node_count_[kind] += 1 - leaf;
         at_cluster_[at_cluster_count_] = static_cast<unsigned char>(slot);
         at_cluster_count_ += leaf;
     }
@@ -60,52 +79,69 @@ class FlightRun {
             if (!more_) return;
             --free_count_;
             query.limit_key = key_limit<Wide>(query.limit);
+            query.kind = k_lattice && query.probe.by_box ? k_boxes : k_slabs;
+            if (query.kind == k_boxes) query.by_box.box = Box<Triangles>(query.probe);
             query.depth = 0;
             query.child = root_;
-            go_to(slot, root_);
+            go_to(slot, query.kind, root_);
         }
     }
 
+    template <unsigned kind>
     [[gnu::always_inline]] void enter_nodes() {
         // Numbers of their own: those of the class would be written and read again at each store of a vector.
         const AnyNode* const nodes = nodes_;
         const Scalar* const records = records_;
-        const unsigned count = at_node_count_;
+        List& slots = at_node_[kind];
+        const unsigned count = at_node_count_[kind];
         unsigned at_node = 0;
         unsigned at_cluster = at_cluster_count_;
-        unsigned to_pop = to_pop_count_;
+        unsigned to_pop = to_pop_count_[kind];
         for (unsigned j = 0; j < count; ++j) {
-            const unsigned char slot = at_node_[j];
+            const unsigned char slot = slots[j];
             Query* at = queries_ + slot;
             asm("" : "+r"(at));  // or each of its numbers is addressed by all of its own
             Query& query = *at;
             const AnyNode& node = nodes[query.child];
-            const Ray<Wide> ray(query.probe);
-            Touched<Wide> touched;
-            slab_test<Wide>(node, query.probe, ray, query.limit, touched);
             ++query.probe.nodes;
             const unsigned depth = query.depth;
-            Sixteen<Wide> left = keys_of(touched);
-            const std::uint32_t key = least_key(left);
-            const std::uint32_t child = node.child[key & 15];
-            ask_memory<Wide>(nodes, records, child);
-            take_key(left, key);
-            query.keys[depth] = left;
+            std::uint32_t child;
+            unsigned none;
+            if constexpr (kind == k_boxes) {
+                const unsigned bits = box_test<Triangles>(node, query.by_box.box);
+                const unsigned left = bits & (bits - 1);
+                child = node.child[__builtin_ctz(bits | 1U << 15)];
+                ask_memory<Wide>(nodes, records, child);
+                query.by_box.left[depth] = left;
+                // By their sign bits: compilers make branches of comparisons here.
+                query.depth = depth + ((0 - left) >> 31);
+                none = (bits - 1) >> 31;
+            } else {
+                const Ray<Wide> ray(query.probe);
+                Touched<Wide> touched;
+                slab_test<Wide>(node, query.probe, ray, query.limit, touched);
+                Sixteen<Wide> left = keys_of(touched);
+                const std::uint32_t key = least_key(left);
+                child = node.child[key & 15];
+                ask_memory<Wide>(nodes, records, child);
+                take_key(left, key);
+                query.keys[depth] = left;
+                query.depth = depth + any_key(left);
+                none = key == k_no_key ? 1U : 0U;
+            }
             query.node[depth] = query.child;
-            query.depth = depth + any_key(left);
             query.child = child;
-            const unsigned none = key == k_no_key ? 1U : 0U;
             const unsigned leaf = child >> 31;
-            at_node_[at_node] = slot;
+            slots[at_node] = slot;
             at_node += (none ^ 1U) & (leaf ^ 1U);
             at_cluster_[at_cluster] = slot;
             at_cluster += (none ^ 1U) & leaf;
-            to_pop_[to_pop] = slot;
+            to_pop_[kind][to_pop] = slot;
             to_pop += none;
         }
-        at_node_count_ = at_node;
+        at_node_count_[kind] = at_node;
         at_cluster_count_ = at_cluster;
-        to_pop_count_ = to_pop;
+        to_pop_count_[kind] = to_pop;
     }
 
     [[gnu::always_inline]] void test_clusters() {
@@ -120,20 +156,23 @@ class FlightRun {
             query.lanes = test_cluster<Triangles>(query.probe, records_, query.child, query.limit);
             found[found_count] = static_cast<unsigned char>(slot);
             found_count += query.lanes != 0 ? 1 : 0;
-            to_pop_[to_pop_count_++] = static_cast<unsigned char>(slot);
+            to_pop_[query.kind][to_pop_count_[query.kind]++] = static_cast<unsigned char>(slot);
         }
         at_cluster_count_ = 0;
         for (unsigned j = 0; j < found_count; ++j) {
             Query& query = queries_[found[j]];
             query.limit = flight_.visit(flight_.self, found[j], query.child, query.lanes);
-            if (query.limit < 0) query.depth = 0;
-            else query.limit_key = key_limit<Wide>(query.limit);
+            if (query.limit < 0)
+                query.depth = 0;
+            else
+                query.limit_key = key_limit<Wide>(query.limit);
         }
     }
 
+    template <unsigned kind>
     [[gnu::always_inline]] void pop_stacks() {
-        for (unsigned j = 0; j < to_pop_count_; ++j) {
-            const unsigned slot = to_pop_[j];
+        for (unsigned j = 0; j < to_pop_count_[kind]; ++j) {
+            const unsigned slot = to_pop_[kind][j];
             Query* at = queries_ + slot;
             asm("" : "+r"(at));
             Query& query = *at;
@@ -142,6 +181,15 @@ class FlightRun {
                 if (depth == 0) {
                     flight_.finish(flight_.self, slot);
                     free_[free_count_++] = static_cast<unsigned char>(slot);
+                    break;
+                }
+                if constexpr (kind == k_boxes) {
+                    unsigned& left = query.by_box.left[depth - 1];
+                    query.child = nodes_[query.node[depth - 1]].child[__builtin_ctz(left)];
+                    left &= left - 1;
+                    query.depth = depth - ((left - 1) >> 31);
+                    ask_memory<Wide>(nodes_, records_, query.child);
+                    go_to(slot, kind, query.child);
                     break;
                 }
                 Sixteen<Wide>& keys = query.keys[depth - 1];
@@ -156,11 +204,11 @@ class FlightRun {
                 take_key(left, key);
                 keys = left;
                 query.depth = depth - (any_key(left) ^ 1U);
-                go_to(slot, query.child);
+                go_to(slot, kind, query.child);
                 break;
             }
         }
-        to_pop_count_ = 0;
+        to_pop_count_[kind] = 0;
     }
 
     const AnyNode* nodes_;
@@ -169,20 +217,22 @@ class FlightRun {
     const Flight<Scalar>& flight_;
     bool more_ = true;
     unsigned free_count_ = 0;
-    unsigned at_node_count_ = 0;
+    unsigned at_node_count_[2] = {};
     unsigned at_cluster_count_ = 0;
-    unsigned to_pop_count_ = 0;
+    unsigned to_pop_count_[2] = {};
     List free_;
-    List at_node_;
+    List at_node_[2];
     List at_cluster_;
-    List to_pop_;
+    List to_pop_[2];
     Query queries_[k_flights];
 };
 
 template <class Wide, class Triangles, class Scalar>
 void fly(const TreeView& tree, const Scalar* records, const Flight<Scalar>& flight) {
-    if (tree.coarse) FlightRun<Wide, Triangles, CoarseNode, Scalar>(tree, records, flight).run();
-    else FlightRun<Wide, Triangles, Node, Scalar>(tree, records, flight).run();
+    if (tree.coarse)
+        FlightRun<Wide, Triangles, CoarseNode, Scalar>(tree, records, flight).run();
+    else
+        FlightRun<Wide, Triangles, Node, Scalar>(tree, records, flight).run();
 }
 
 }  // namespace pierce::detail

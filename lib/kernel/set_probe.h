@@ -29,11 +29,14 @@ typedef double Four __attribute__((vector_size(32)));
 typedef float FourFloats __attribute__((vector_size(16)));
 typedef std::int64_t FourWords __attribute__((vector_size(32)));
 typedef std::uint32_t FourRows __attribute__((vector_size(16)));
+typedef std::int32_t FourInts __attribute__((vector_size(16)));
+typedef std::uint16_t FourShorts __attribute__((vector_size(8)));
 
-/// Returns false if the segment certainly touches nothing. `ray`: `to` is the way from `from` to the end.
+/// Returns false if the segment certainly touches nothing. `ray`: `to` is the way from `from` to the end. `short_way`:
+/// of the tree (node.h).
 template <class Wide, class Scalar>
 [[gnu::always_inline]] inline bool set_probe(const Frame& frame, const double* from, const double* to, bool ray,
-                                             bool front_only, bool back_only, Probe<Scalar>& probe) {
+                                             bool front_only, bool back_only, float short_way, Probe<Scalar>& probe) {
     constexpr bool k_double = sizeof(Scalar) == sizeof(double);
     const auto most = [](const Four& x) __attribute__((always_inline)) {
         const double y = x[0] > x[1] ? x[0] : x[1];
@@ -83,24 +86,39 @@ template <class Wide, class Scalar>
     store(probe.direction, d);
     store(probe.noise, Four{noise, noise, noise, noise});
 
-    // A shorter way along an axis is taken for one of 2^-60: no point moves by more, which is less than the noise.
-    const Four size = size_of(d);
-    const auto tiny = size < 0x1p-60;
-    const Four least = {0x1p-60, 0x1p-60, 0x1p-60, 0x1p-60};
-    const Four way =
-        reinterpret_cast<Four>((reinterpret_cast<FourWords>(d) & sign) | (tiny & reinterpret_cast<FourWords>(least)) |
-                               (~tiny & reinterpret_cast<FourWords>(size)));
-    const Four inverse = 1 / way;
-    const Four per_noise = size_of(inverse);
-    const Four center = -x * inverse;
-    const Four e = per_noise * (noise + 0x1p-19);
-    store(probe.full_inverse, inverse);
-    store(probe.inverse, __builtin_convertvector(inverse, FourFloats));
-    store(probe.margin, __builtin_convertvector(per_noise * (noise * (1 + 0x1p-20)), FourFloats));
-    store(probe.pace, __builtin_convertvector(inverse * frame.step, FourFloats));
-    store(probe.near, __builtin_convertvector(center - e, FourFloats));
-    store(probe.far, __builtin_convertvector(center + e, FourFloats));
-    store(probe.near_row, FourRows{0, 2, 4, 6} - __builtin_convertvector(way < 0, FourRows));
+    probe.by_box = !clipped && most(size_of(d)) < short_way;
+    if (probe.by_box) {
+        const double per_step = 1 / frame.step;
+        const auto on_lattice = [&](const Four& y) __attribute__((always_inline)) {
+            const Four steps = y * per_step;
+            const Four above = steps > 0 ? steps : Four{};
+            const Four least = above < 65535 ? above : Four{} + 65535;
+            return __builtin_convertvector(__builtin_convertvector(least, FourInts), FourShorts);
+        };
+        const Four last = x + d;
+        const auto down = last < x;
+        store(probe.low, on_lattice((down ? last : x) - 2 * noise));
+        store(probe.high, on_lattice((down ? x : last) + 2 * noise));
+    } else {
+        // A shorter way along an axis is taken for one of 2^-60: no point moves by more, which is less than the noise.
+        const Four size = size_of(d);
+        const auto tiny = size < 0x1p-60;
+        const Four least = {0x1p-60, 0x1p-60, 0x1p-60, 0x1p-60};
+        const Four way = reinterpret_cast<Four>((reinterpret_cast<FourWords>(d) & sign) |
+                                                (tiny & reinterpret_cast<FourWords>(least)) |
+                                                (~tiny & reinterpret_cast<FourWords>(size)));
+        const Four inverse = 1 / way;
+        const Four per_noise = size_of(inverse);
+        const Four center = -x * inverse;
+        const Four e = per_noise * (noise + 0x1p-19);
+        store(probe.full_inverse, inverse);
+        store(probe.inverse, __builtin_convertvector(inverse, FourFloats));
+        store(probe.margin, __builtin_convertvector(per_noise * (noise * (1 + 0x1p-20)), FourFloats));
+        store(probe.pace, __builtin_convertvector(inverse * frame.step, FourFloats));
+        store(probe.near, __builtin_convertvector(center - e, FourFloats));
+        store(probe.far, __builtin_convertvector(center + e, FourFloats));
+        store(probe.near_row, FourRows{0, 2, 4, 6} - __builtin_convertvector(way < 0, FourRows));
+    }
 
     const double scale = k_double ? frame.unit : 1;
     const Four length = k_double ? d : moved;

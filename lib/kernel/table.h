@@ -14,8 +14,8 @@ namespace {
 template <class Wide, class Flights, class Scalar>
 struct KernelsOf {
     static bool make(const Frame& frame, const double* from, const double* to, bool ray, bool front_only,
-                     bool back_only, Probe<Scalar>& probe) {
-        return set_probe<Wide>(frame, from, to, ray, front_only, back_only, probe);
+                     bool back_only, float short_way, Probe<Scalar>& probe) {
+        return set_probe<Wide>(frame, from, to, ray, front_only, back_only, short_way, probe);
     }
     static void walk(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit,
                      void* self) {

@@ -6,6 +6,7 @@
 // well, in octant order).
 #pragma once
 
+#include <kernel/box_test.h>
 #include <kernel/cluster_test.h>
 #include <kernel/slab_test.h>
 
@@ -99,9 +100,62 @@ template <class Wide, class AnyNode, class Scalar>
     probe.clusters = cluster_count;
 }
 
+/// The same by the box around the segment, in no order: a short one comes to few clusters.
+template <class Wide, class Scalar>
+[[gnu::always_inline]] inline void traverse_boxes(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe,
+                                                  float limit, Visit visit, void* self) {
+    struct Group {
+        const Node* node;
+        unsigned left;  // a bit for each child that is left
+    };
+    Group stack[k_most_depth];
+    unsigned depth = 0;
+    const Box<Wide> in_memory(probe);
+    const auto* nodes = static_cast<const Node*>(tree.nodes);
+    std::uint32_t node_count = 0;
+    std::uint32_t cluster_count = 0;
+    std::uint32_t child = tree.root;
+    for (;;) {
+        bool none = false;
+        while ((child & k_leaf_bit) == 0) {
+            ++node_count;
+            const Node& node = nodes[child];
+            // Where it is read from: in registers it would take those that the test of clusters needs.
+            const Box<Wide>* box = &in_memory;
+            asm("" : "+r"(box));
+            const unsigned bits = box_test<Wide>(node, *box);
+            if (bits == 0) {
+                none = true;
+                break;
+            }
+            const unsigned left = bits & (bits - 1);
+            child = node.child[__builtin_ctz(bits)];
+            if (left == 0) continue;
+            stack[depth++] = {&node, left};
+            ask_memory<Wide>(nodes, records, node.child[__builtin_ctz(left)]);
+        }
+        if (!none) {
+            ++cluster_count;
+            if (const unsigned lanes = test_cluster<Wide>(probe, records, child, limit); lanes != 0) {
+                limit = visit(self, child, lanes);
+                if (limit < 0) break;
+            }
+        }
+        if (depth == 0) break;
+        Group& group = stack[depth - 1];
+        child = group.node->child[__builtin_ctz(group.left)];
+        group.left &= group.left - 1;
+        depth -= group.left == 0 ? 1 : 0;
+    }
+    probe.nodes = node_count;
+    probe.clusters = cluster_count;
+}
+
 template <class Wide, class Scalar>
 void traverse(const TreeView& tree, const Scalar* records, Probe<Scalar>& probe, float limit, Visit visit, void* self) {
-    if (tree.coarse)
+    if (probe.by_box)
+        traverse_boxes<Wide>(tree, records, probe, limit, visit, self);
+    else if (tree.coarse)
         traverse_nodes<Wide, CoarseNode>(tree, records, probe, limit, visit, self);
     else
         traverse_nodes<Wide, Node>(tree, records, probe, limit, visit, self);

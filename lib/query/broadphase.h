@@ -31,7 +31,8 @@ template <class Scalar>
     const ScalarKernels<Scalar>& kernels = scene.backend->template of<Scalar>();
     const bool front_only = sides == Sides::front;
     const bool back_only = sides == Sides::back;
-    if (!kernels.set_probe(frame, path.from.data(), path.to.data(), path.ray, front_only, back_only, probe))
+    if (!kernels.set_probe(frame, path.from.data(), path.to.data(), path.ray, front_only, back_only,
+                           scene.tree.short_way, probe))
         return false;
     up_to = parameter(probe, std::min(limit, path.end));
     return up_to >= 0;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <pierce/collision_mesh.h>
+#include <query/rebuild.h>
 #include <query/refit.h>
 #include <query/ways.h>
 
@@ -17,6 +18,8 @@ struct CollisionMesh<Scalar>::Impl {
     BuildOptions options;
     /// From the first refit on, until the mesh is built anew.
     std::unique_ptr<detail::Refit<Scalar>> refit;
+    /// What rebuilds know of clusters, as long as there is no refit.
+    detail::KeptClusters kept;
     mutable std::atomic<std::uint64_t> invalid_queries = 0;
 
     /// What meshes share that were not built, or are moved from. It has no triangle, and counts nothing.

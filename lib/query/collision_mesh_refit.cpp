@@ -27,11 +27,12 @@ void or_without_triangles(Mesh& mesh, Do&& change) {
     }
 }
 
-/// Builds anew, and forgets what refits went by.
+/// Builds anew, and forgets what refits and rebuilds went by.
 template <class Scalar, class Mesh, class Impl>
 void build_anew(Mesh& mesh, Impl& impl, std::span<const Vec3<Scalar>> positions, const Executor& executor) {
     or_without_triangles(mesh, [&] { rebuild_scene(impl.scene, positions, impl.options, executor); });
     impl.refit.reset();
+    impl.kept = {};
 }
 
 /// `refit(Refit&)`, which says whether it could; else builds anew.
@@ -96,8 +97,15 @@ void CollisionMesh<Scalar>::rebuild(const PointsView<Scalar>& positions, const E
     const StandardExecutor in_standard_arithmetic(executor);
     const Executor threads = in_standard_arithmetic.executor();
     const MadePlain<Scalar> plain(MeshView<Scalar>{positions, {}}, threads);
-    check_positions(plain.mesh().positions, threads);
-    build_anew<Scalar>(*this, *impl_, plain.mesh().positions, threads);
+    const std::span<const Vec3<Scalar>> at = plain.mesh().positions;
+    bool done = false;
+    if (!always_builds<Scalar>(at)) {
+        check_positions(at, threads);
+    } else if (!impl_->refit) {
+        or_without_triangles(
+            *this, [&] { done = rebuild_on_clusters<Scalar>(impl_->scene, at, impl_->options, impl_->kept, threads); });
+    }
+    if (!done) build_anew<Scalar>(*this, *impl_, at, threads);
 }
 
 template <class Scalar>

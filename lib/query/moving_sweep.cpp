@@ -56,7 +56,8 @@ class FirstContact {
             return found_;
         }
         const ScalarKernels<Scalar>& kernels = scene_.scene->backend->template of<Scalar>();
-        if (!kernels.set_probe(scene_.frame, point_.at[0].data(), point_.at[1].data(), false, false, false, probe_))
+        if (!kernels.set_probe(scene_.frame, point_.at[0].data(), point_.at[1].data(), false, false, false,
+                               scene_.tree.short_way, probe_))
             return false;
         // Nothing is refused by what the triangles are at one end (cluster_test.h: each bound is infinite).
         probe_.floor = std::numeric_limits<float>::infinity();

@@ -15,6 +15,7 @@
 #include <exact/decide.h>
 #include <mesh/check_mesh.h>
 #include <query/place.h>
+#include <query/rebuild.h>
 #include <query/standard_executor.h>
 #include <tree/make_tree.h>
 
@@ -60,23 +61,6 @@ Broadphase choose_broadphase(Broadphase wanted) {
     if (name == "grid") return Broadphase::grid;
     throw std::invalid_argument("no broadphase '" + std::string(name) +
                                 "' for PIERCE_BROADPHASE, which takes: tree grid");
-}
-
-// Whether no build from these positions can throw `MeshError`: where coordinates that are not 0 are within 2^45 of 1
-// (double: 2^450), their differences that are not 0 are above 2^-69 (2^-503), so a mesh is at most 2^114 (2^953) of its
-// extents from the origin; 2^121 (2^1017) are too many (cluster/make_clusters.cpp).
-template <class Scalar>
-bool always_builds(std::span<const Vec3<Scalar>> positions) {
-    constexpr Scalar k_most = sizeof(Scalar) == sizeof(float) ? Scalar(0x1p45) : Scalar(0x1p450);
-    Scalar largest = 0;
-    Scalar least = k_most;
-    for (const Vec3<Scalar>& p : positions)
-        for (int k = 0; k < 3; ++k) {
-            const Scalar size = std::abs(p[k]);
-            largest = std::max(largest, size);
-            least = std::min(least, size == 0 ? k_most : size);
-        }
-    return largest <= k_most && least >= 1 / k_most;
 }
 
 // Clusters and broadphase, of a mesh whose triangles the scene need not have yet.
@@ -159,7 +143,7 @@ void rebuild_scene(Scene<Scalar>& scene, std::span<const Vec3<Scalar>> positions
     built.vertex_count = scene.vertex_count;
     built.face_count = scene.face_count;
     const PlainMesh<Scalar> mesh{positions, {scene.triangles.data(), scene.triangles.size()}, {}};
-    if (always_builds(positions)) {
+    if (always_builds<Scalar>(positions)) {
         // What was there before is used again while caches still have it (6 % of the time). Nobody reads it: positions
         // are the caller's, or Refit's.
         scene.cluster_refs = {};

@@ -130,6 +130,7 @@ class Judge {
         Path way{path.from, path.to};
         for (std::size_t k = 0; k < 3; ++k) {
             if (std::abs(path.from[k]) > largest_ || std::abs(path.to[k]) > largest_) return;
+            if (std::isinf(path.to[k] - path.from[k])) return;
             way.to[k] = rounded(path.from[k] + t * (path.to[k] - path.from[k]) + 8 * unit * random_.between(-1, 1));
         }
         const unsigned on_way = hits_of(way, sides);
@@ -142,7 +143,7 @@ class Judge {
     unsigned left(const Path& path, Sides sides, double fraction) {
         Probe<Scalar> probe;
         if (!kernels_.set_probe(frame_, path.from.data(), path.to.data(), path.ray, sides == Sides::front,
-                                sides == Sides::back, probe))
+                                sides == Sides::back, 0, probe))
             return 0;
         const float limit = parameter(probe, fraction);
         return limit < 0 ? 0 : kernels_.test_cluster(probe, records_.data(), cluster_, limit);

@@ -26,7 +26,7 @@ struct Probes {
     Probe<Scalar> neon;
     Probe<Scalar> plain;
 
-    explicit Probes(const Frame& frame) {
+    explicit Probes(const Frame& frame, float short_way = 0) {
         double from[3];
         double to[3];
         const double far = engine() % 4 == 0 ? 100 : 1;  // some are clipped
@@ -36,8 +36,8 @@ struct Probes {
         }
         const bool front = engine() % 3 == 0;
         const bool back = !front && engine() % 2 == 0;
-        one = k_neon.of<Scalar>().set_probe(frame, from, to, false, front, back, neon);
-        other = k_plain.of<Scalar>().set_probe(frame, from, to, false, front, back, plain);
+        one = k_neon.of<Scalar>().set_probe(frame, from, to, false, front, back, short_way, neon);
+        other = k_plain.of<Scalar>().set_probe(frame, from, to, false, front, back, short_way, plain);
     }
     bool one;
     bool other;
@@ -102,7 +102,7 @@ int traverse_differs() {
         }
         if constexpr (k_coarse)
             for (float& step : node.step) step = 1.0F / 256;
-        Probes<float> probes(frame);
+        Probes<float> probes(frame, !k_coarse && engine() % 2 == 0 ? 100.0F : 0.0F);  // or by the box around it
         if (!probes.one || !probes.other) continue;
         const TreeView tree{&node, 0, k_coarse};
         Visited neon;

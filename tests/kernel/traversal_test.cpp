@@ -131,12 +131,12 @@ struct Asked {
 };
 
 template <class Scalar>
-void expect_complete(const ScalarKernels<Scalar>& kernels, const World<Scalar>& world, const Path& path, bool nearest,
-                     std::size_t& visits, std::size_t& touched) {
+void expect_complete(const ScalarKernels<Scalar>& kernels, const World<Scalar>& world, const Path& path,
+                     float short_way, bool nearest, std::size_t& visits, std::size_t& touched) {
     const std::size_t count = world.boxes.size();
     Asked<Scalar> asked{std::vector<int>(count + 1), nullptr, &world, &path, 0, nearest};
     Probe<Scalar> probe;
-    if (kernels.set_probe(world.frame, path.from.data(), path.to.data(), path.ray, false, false, probe)) {
+    if (kernels.set_probe(world.frame, path.from.data(), path.to.data(), path.ray, false, false, short_way, probe)) {
         asked.probe = &probe;
         asked.limit = parameter(probe, 1);
         // As a first hit would be looked for: where the box is met nothing behind it counts any more.
@@ -171,6 +171,8 @@ void expect_complete(const Backend& backend, std::uint64_t seed) {
     Random random(seed);
     std::size_t visits = 0;
     std::size_t touched = 0;
+    std::size_t of_boxes = 0;
+    std::size_t touched_by_boxes = 0;
     int coarse = 0;
     for (int round = 0; round < 40; ++round) {
         const auto kind = static_cast<Kind>(random.below(3));
@@ -180,13 +182,20 @@ void expect_complete(const Backend& backend, std::uint64_t seed) {
         coarse += world.tree.coarse ? 1 : 0;
         for (int i = 0; i < 100; ++i) {
             const Path path = path_for(world, random);
-            expect_complete(backend.of<Scalar>(), world, path, i % 4 == 0, visits, touched);
+            const float short_way = world.tree.short_way;
+            expect_complete(backend.of<Scalar>(), world, path, short_way, i % 4 == 0, visits, touched);
+            // Any other goes by its box as well.
+            if (!world.tree.coarse)
+                expect_complete(backend.of<Scalar>(), world, path, std::numeric_limits<float>::infinity(), i % 4 == 1,
+                                of_boxes, touched_by_boxes);
             if (testing::Test::HasFatalFailure()) return;
         }
     }
     EXPECT_GT(coarse, 5);
     EXPECT_GT(touched, 5000U);
     EXPECT_LT(visits, touched * 2) << "margins cost visits";
+    EXPECT_GT(touched_by_boxes, 4000U);
+    EXPECT_LT(of_boxes, touched_by_boxes * 12);
 }
 
 TEST_P(Traversal, skips_nothing_and_visits_nothing_twice) {
