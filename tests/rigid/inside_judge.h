@@ -22,8 +22,8 @@ class InsideJudge {
     }
     enum class Where { outside, inside, unknown };
 
-    /// On the surface counts as in front of it: outside, or of a mesh turned inside out inside. Two ways that disagree,
-    /// or pass through more or less than a solid: unknown.
+    /// On the surface counts as in front of it: outside, or of a mesh turned inside out inside. Two ways that
+    /// disagree, or pass through more or less than a solid: unknown.
     [[nodiscard]] Where where(const Vec3<Scalar>& point) {
         int winding[2];
         for (int& w : winding) {
