@@ -39,7 +39,10 @@ class Drum : public show::Demo {
         // The mesh first: where it goes in this step. Then the grains, against the mesh on its way.
         mesh_.begin_step(pose, pierce::tbb_executor());
         std::vector<Vec3> velocities;
-        for (const Move& grain : grains_) velocities.push_back(grain.velocity - Vec3(0, k_gravity * k_seconds, 0));
+        for (const Move& grain : grains_) {  // a draught keeps them apart: they don't know of one another
+            const Vec3 draught(random() - 0.5f, random() - 0.5f, random() - 0.5f);
+            velocities.push_back(grain.velocity - Vec3(0, k_gravity * k_seconds, 0) + 0.4f * draught);
+        }
         const pierce::MoveOptions<float> options = {
             .response = {.restitution = restitution_, .friction = friction_, .rest_speed = 2 * k_gravity * k_seconds}};
         const pierce::PointsView<float> positions(grains_.front().position.data(), grains_.size(), sizeof(Move));
@@ -101,7 +104,7 @@ class Drum : public show::Demo {
     std::vector<Vec3> rest_;
     std::vector<Move> grains_;
     std::mt19937 random_{1};
-    float angle_ = 0, turns_ = 0.3f, restitution_ = 0.2f, friction_ = 0.5f;
+    float angle_ = 0, turns_ = 0.3f, restitution_ = 0.6f, friction_ = 0.5f;
     std::size_t steps_ = 0;
 };
 
