@@ -41,6 +41,16 @@ prints "leaked, pierce: 0"
 prints "leaked, plain floats with a skin of 0: [1-9][0-9]*"
 picture bullets.png 20000
 
+# Grains in a mesh that turns.
+run drum --grains 500 --steps 200 --picture drum.png --size 320x240
+prints "0 outside of the drum after 200 steps"
+picture drum.png 20000
+
+# A ball that walks is not held up by the seams of the floor, and overlaps nothing: else its status is not 0.
+run character --picture character.png --size 320x240
+prints "900 steps, [0-9]+ contacts in the last one, clear"
+picture character.png 20000
+
 run lidar --turns 2
 prints "131072 of 131072 rays came back, .* million rays a second"
 picture range.png 5000
@@ -50,7 +60,7 @@ run pick
 prints "face 3 at \(0\.45 0\.6 1\), its corner of the largest weight: vertex 7"
 
 if "$programs/rain" --help | grep -q screenshot && command -v xvfb-run >/dev/null; then
-    for demo in rain bullets; do
+    for demo in rain bullets drum character; do
         what="$demo in a window"
         timeout 100 xvfb-run -a -s "-screen 0 800x600x24" "$programs/$demo" --steps 20 --screenshot "$demo.window.png" \
             --size 640x480 >out 2>err </dev/null || fail "$what: status $?"
