@@ -37,8 +37,8 @@ class SmallCallable<Result(Arguments...)> {
     template <class Callable>
     requires keeps<Callable>
     explicit SmallCallable(const Callable& callable) {
-        if constexpr (std::is_pointer_v<std::decay_t<Callable>>)
-            if (std::decay_t<Callable>(callable) == nullptr) return;  // a null pointer is none, as for std::function
+        if constexpr (std::is_pointer_v<Callable>)
+            if (callable == nullptr) return;  // a null pointer is none, as for std::function
         call_ = [](const void* room, Arguments... arguments) -> Result {
             return (*std::launder(static_cast<const std::decay_t<Callable>*>(room)))(
                 static_cast<Arguments>(arguments)...);
