@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <pierce/pierce.h>
 #include <support/meshes.h>
@@ -41,7 +42,7 @@ TYPED_TEST(RegionPlaces, faces_that_pass_through_each_other_are_not_found_but_fl
     const Regions<Scalar> regions(mesh, model.labels);
     EXPECT_TRUE(regions.check().agree());
     std::array<Leg<Scalar>, 8> legs;
-    const std::size_t count = regions.walk(Segment<Scalar>{{-1, 1.5, 1.6}, {4, 1.5, 1.6}}, legs);
+    const std::size_t count = regions.walk(Segment<Scalar>{{-1, 1.5, 1.625}, {4, 1.5, 1.625}}, legs);
     ASSERT_EQ(count, 5U);
     EXPECT_TRUE(legs[0].consistent);
     EXPECT_FALSE(legs[1].consistent);
