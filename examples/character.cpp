@@ -51,7 +51,7 @@ class Character : public show::Demo {
         return std::any_of(contacts.begin(), contacts.begin() + static_cast<std::ptrdiff_t>(count),
                            [](const auto& contact) { return contact.overlap > 0; });
     }
-    [[nodiscard]] double kept() const { return wished_ > 0 ? flat_way_ / wished_ : 0; }
+    [[nodiscard]] double kept() const { return wished_ > 0 ? flat_way_ / wished_ : 1; }
 
     [[nodiscard]] const pierce::CollisionMesh<float>& mesh() const override { return mesh_; }
     [[nodiscard]] const pierce::TriangleSoup<float>& soup() const override { return soup_; }

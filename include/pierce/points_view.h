@@ -22,10 +22,10 @@ concept HasColumns = std::same_as<typename Matrix::Scalar, Scalar> &&(Matrix::Fl
                      (Matrix::RowsAtCompileTime == 3 || Matrix::RowsAtCompileTime == Eigen::Dynamic) &&
                      Matrix::InnerStrideAtCompileTime == 1 && !Matrix::IsRowMajor;
 
-/// Throws std::invalid_argument, from within the library, as `throw_mesh_error` does.
-[[noreturn]] PIERCE_EXPORT void refuse_rows(std::ptrdiff_t rows);
-
 }  // namespace detail
+
+/// Throws std::invalid_argument for a matrix of so many rows, from within the library, as `throw_mesh_error` does.
+[[noreturn]] PIERCE_EXPORT void throw_rows_error(std::ptrdiff_t rows);
 
 /// `size()` points; a point is three numbers in a row, and from one point to the next is a fixed number of bytes, which
 /// may be any, negative as well: a `std::vector<Vec3<Scalar>>`, the columns of an Eigen matrix with three rows (or of a
@@ -57,7 +57,7 @@ class PointsView {
     requires detail::HasColumns<Matrix, Scalar> PointsView(const Eigen::MatrixBase<Matrix>& columns)
         : PointsView(columns.derived().data(), static_cast<std::size_t>(columns.cols()),
                      columns.derived().outerStride() * static_cast<std::ptrdiff_t>(sizeof(Scalar))) {
-        if (columns.rows() != 3) detail::refuse_rows(columns.rows());
+        if (columns.rows() != 3) throw_rows_error(columns.rows());
     }
 
     [[nodiscard]] std::size_t size() const { return size_; }

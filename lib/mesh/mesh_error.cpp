@@ -9,7 +9,7 @@ MeshError::~MeshError() = default;
 
 void throw_mesh_error(const std::string& text) { throw MeshError(text); }
 
-void detail::refuse_rows(std::ptrdiff_t rows) {
+void throw_rows_error(std::ptrdiff_t rows) {
     throw std::invalid_argument("points are the columns of a matrix with 3 rows, not " + std::to_string(rows));
 }
 

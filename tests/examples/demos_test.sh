@@ -49,7 +49,7 @@ picture drum.png 20000
 # A ball that walks is not held up by the seams of the floor, and overlaps nothing: else its status is not 0.
 run character --picture character.png --size 320x240
 prints "900 steps, [0-9]+ contacts in the last one, clear"
-picture character.png 20000
+picture character.png 5000
 
 run lidar --turns 2
 prints "131072 of 131072 rays came back, .* million rays a second"
@@ -64,7 +64,7 @@ if "$programs/rain" --help | grep -q screenshot && command -v xvfb-run >/dev/nul
         what="$demo in a window"
         timeout 100 xvfb-run -a -s "-screen 0 800x600x24" "$programs/$demo" --steps 20 --screenshot "$demo.window.png" \
             --size 640x480 >out 2>err </dev/null || fail "$what: status $?"
-        picture "$demo.window.png" 20000
+        picture "$demo.window.png" 8000
     done
 else
     echo "no xvfb-run: the windows of the demos are not tried"
