@@ -6,7 +6,6 @@
 //   bullets --picture bullets.png        the same with a picture
 #include <array>
 #include <iostream>
-#include <random>
 #include <sstream>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "bullets/plain_floats.h"
 #include "show/demo.h"
 #include "show/panel.h"
+#include "show/random.h"
 #include "show/shapes.h"
 
 namespace {
@@ -79,7 +79,7 @@ class Bullets : public show::Demo {
     Bullets(std::size_t count, float offset, float skin)
         : frame_(frame_at(offset)), soup_(show::hall(1, frame_)), mesh_(soup_.view()), plain_(soup_), skin_(skin) {
         while (ours_.size() < count) {
-            const Vec3 position = place(40 * random(), 12 * random(), 40 * random());
+            const Vec3 position = place(40 * random_(), 12 * random_(), 40 * random_());
             if (is_in_room(position)) ours_.push_back({position, shot(), 0});
         }
         theirs_ = ours_;
@@ -168,9 +168,8 @@ class Bullets : public show::Demo {
     [[nodiscard]] Vec3 place(float x, float y, float z) const {
         return (frame_ * Eigen::Vector3f(x, y, z).cast<double>()).cast<float>();
     }
-    float random() { return static_cast<float>(random_() >> 8) * 0x1p-24f; }
     Vec3 shot() {
-        const Vec3 direction(2 * random() - 1, random() - 0.5f, 2 * random() - 1);
+        const Vec3 direction(2 * random_() - 1, random_() - 0.5f, 2 * random_() - 1);
         return 200 * (direction + Vec3(0, 0, 1e-3f)).normalized();
     }
 
@@ -180,7 +179,7 @@ class Bullets : public show::Demo {
     bullets::PlainFloats plain_;
     std::vector<Bullet> ours_, theirs_;
     std::vector<Vec3> leaks_;
-    std::mt19937 random_{1};
+    show::Random random_;
     std::size_t our_leaks_ = 0, their_leaks_ = 0, steps_ = 0;
     bool shows_plain_ = false;
     float skin_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <iostream>
 #include <numbers>
-#include <random>
 #include <sstream>
 #include <vector>
 
@@ -15,6 +14,7 @@
 
 #include "show/demo.h"
 #include "show/panel.h"
+#include "show/random.h"
 #include "show/shapes.h"
 
 namespace {
@@ -26,9 +26,10 @@ using pierce::MoveState;
 class Drum : public show::Demo {
   public:
     explicit Drum(std::size_t count) : soup_(show::paddle_drum()), mesh_(soup_.view()), grains_(count) {
-        for (Move& grain : grains_)  // in the middle, where the paddles do not reach
-            grain.position = {0.8f * random() - 0.4f, 0.8f * random() - 0.4f, 0.9f * random() - 0.45f};
-        for (Move& grain : grains_) grain.velocity = {0, 0, 0};
+        for (Move& grain : grains_) {  // in the middle, where the paddles do not reach
+            grain.position = {0.8f * random_() - 0.4f, 0.8f * random_() - 0.4f, 0.9f * random_() - 0.45f};
+            grain.velocity = {0, 0, 0};
+        }
         rest_ = soup_.positions;
     }
 
@@ -40,7 +41,7 @@ class Drum : public show::Demo {
         mesh_.begin_step(pose, pierce::tbb_executor());
         std::vector<Vec3> velocities;
         for (const Move& grain : grains_) {  // a draught keeps them apart: they don't know of one another
-            const Vec3 draught(random() - 0.5f, random() - 0.5f, random() - 0.5f);
+            const Vec3 draught(random_() - 0.5f, random_() - 0.5f, random_() - 0.5f);
             velocities.push_back(grain.velocity - Vec3(0, k_gravity * k_seconds, 0) + 0.4f * draught);
         }
         const pierce::MoveOptions<float> options = {
@@ -96,14 +97,12 @@ class Drum : public show::Demo {
     static constexpr float k_seconds = 1.0f / 120;
     static constexpr float k_gravity = 9.8f;
 
-    float random() { return static_cast<float>(random_() >> 8) * 0x1p-24f; }
-
     pierce::TriangleSoup<float> soup_;
     pierce::DeformingMesh<float> mesh_;
     pierce::DeformationStep<float> shown_ = mesh_.step();
     std::vector<Vec3> rest_;
     std::vector<Move> grains_;
-    std::mt19937 random_{1};
+    show::Random random_;
     float angle_ = 0, turns_ = 0.3f, restitution_ = 0.6f, friction_ = 0.5f;
     std::size_t steps_ = 0;
 };

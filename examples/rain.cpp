@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <random>
 #include <sstream>
 #include <vector>
 
@@ -15,6 +14,7 @@
 
 #include "show/demo.h"
 #include "show/panel.h"
+#include "show/random.h"
 #include "show/shapes.h"
 
 namespace {
@@ -35,7 +35,7 @@ class Rain : public show::Demo {
         // At first they are anywhere above the mesh, so that the rain is even from the start.
         for (std::size_t i = 0; i < count; ++i) {
             renew(i);
-            drops_[i].position.y() += random() * box_.diagonal().y();
+            drops_[i].position.y() += random_() * box_.diagonal().y();
         }
     }
 
@@ -44,7 +44,7 @@ class Rain : public show::Demo {
         std::vector<Vec3> velocities(drops_.size());
         for (std::size_t i = 0; i < drops_.size(); ++i) {
             Move& drop = drops_[i];
-            if (drop.position.y() < box_.min().y() - 0.1f * box_.diagonal().y() || random() < evaporation_) renew(i);
+            if (drop.position.y() < box_.min().y() - 0.1f * box_.diagonal().y() || random_() < evaporation_) renew(i);
             velocities[i] = drop.velocity - Vec3(0, gravity_ * seconds_, 0);
         }
         const pierce::MoveOptions<float> options = {
@@ -104,11 +104,8 @@ class Rain : public show::Demo {
         return has_touched ? show::Colour(0.1f, 0.75f, 0.5f) : show::Colour(0.2f, 0.4f, 0.8f);
     }
 
-    /// Uniform in [0, 1), the same on every machine.
-    float random() { return static_cast<float>(random_() >> 8) * 0x1p-24f; }
-
     void renew(std::size_t i) {
-        const Vec3 at(random(), 1.05f + 0.3f * random(), random());
+        const Vec3 at(random_(), 1.05f + 0.3f * random_(), random_());
         has_touched_[i] = false;
         drops_[i] = {.position = box_.min() + at.cwiseProduct(box_.diagonal()),
                      .velocity = Vec3::Zero(),
@@ -121,7 +118,7 @@ class Rain : public show::Demo {
     std::vector<Move> drops_;
     std::vector<bool> has_touched_;  // since it began to fall
     Eigen::AlignedBox3f box_;
-    std::mt19937 random_{1};
+    show::Random random_;
     float seconds_ = 1.0f / 60;
     float gravity_ = 0;
     float restitution_ = 0.4f;
