@@ -56,12 +56,16 @@ Point seen_from(const SplitPoint& end, const Point& x) { return minus(minus(x, e
 void set_interval(const Bounded& from, const Bounded& to, Filtered& filtered) {
     const double f = std::abs(from.value);
     const double t = std::abs(to.value);
-    // Each sum, difference and quotient within 2^-53, and from.bound may be as large as f.
-    const double low = std::max(f - from.bound, 0.0) / ((f + t) + (from.bound + to.bound)) * (1 - 0x1p-50);
+    // Each sum, difference and quotient within 2^-53, and from.bound may be as large as f. A quotient below the normal
+    // numbers is off by 2^-1075, and so is each product with it.
+    constexpr double k_underflow = 0x1p-1072;
+    const double low =
+        std::max(f - from.bound, 0.0) / ((f + t) + (from.bound + to.bound)) * (1 - 0x1p-50) - k_underflow;
     const double least = (f + t) - (from.bound + to.bound);
     filtered.earliest = low > 0 ? low : 0;
     // The difference loses four bits at most.
-    filtered.latest = least > (f + t) * 0x1p-4 ? std::min((f + from.bound) / least * (1 + 0x1p-46), 1.0) : 1.0;
+    filtered.latest =
+        least > (f + t) * 0x1p-4 ? std::min((f + from.bound) / least * (1 + 0x1p-46) + k_underflow, 1.0) : 1.0;
 }
 
 }  // namespace

@@ -112,6 +112,13 @@ TYPED_TEST(Moves, say_what_they_met) {
     EXPECT_EQ(none.casts, 0);
     EXPECT_EQ(none.position, from);
     EXPECT_EQ(none.remainder, v);
+    EXPECT_EQ(none.state, MoveState::wedged);
+    // Slow ones look along their way first, which takes the only query.
+    const Vec3<Scalar> slow(std::numeric_limits<Scalar>::epsilon(), 0, 0);
+    const Move<Scalar> stuck = move_and_slide(mesh, from, slow, Scalar(1), {.max_casts = 1});
+    EXPECT_EQ(stuck.casts, 1);
+    EXPECT_EQ(stuck.remainder, slow);
+    EXPECT_EQ(stuck.state, MoveState::wedged);
     // `max_fraction` would let it through what lies beyond.
     EXPECT_TRUE(same_bits(move_and_slide(mesh, from, v, Scalar(1), {.query = {.max_fraction = 0.01}}), move));
     // An empty mesh stops nothing.

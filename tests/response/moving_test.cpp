@@ -1,4 +1,6 @@
 // Moves on a mesh that moves: bounces, rides and rests by their formulas, seen from the mesh; batches.
+#include <cmath>
+
 #include <deform/shapes.h>
 #include <gtest/gtest.h>
 #include <pierce/deforming_mesh.h>
@@ -68,6 +70,14 @@ TYPED_TEST(MovingMeshes, a_racket_strikes_a_ball_at_rest) {
         EXPECT_EQ(pushed.velocity[1], Scalar(1));
         EXPECT_NEAR(double(pushed.position[0]), 1, 1e-5);
         EXPECT_NEAR(double(pushed.position[1]), 0.45, 1e-5);
+        // `max_fraction` would let it through what comes later.
+        MoveOptions<Scalar> limited = options;
+        for (const double limit : {0.01, -1.0, std::nan("")}) {
+            limited.query.max_fraction = limit;
+            const Move<Scalar> same =
+                move_and_bounce(step, from, Vec3<Scalar>::Zero(), Scalar(0.25), limited, contacts);
+            EXPECT_TRUE(same_bits(same, move)) << limit;
+        }
         // From behind only: it is passed.
         MoveOptions<Scalar> back = options;
         back.query.sides = Sides::back;

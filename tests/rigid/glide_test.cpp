@@ -303,6 +303,15 @@ TYPED_TEST(Glides, BatchesAreTheSingleCalls) {
     EXPECT_THROW(mesh.sweeps(ways, motion, few), std::invalid_argument);
 }
 
+// Of the least number one and three quarters, and a quarter: the quotients of doubles are 2 and 0.
+TEST(GlidesOfDoubles, TimesBelowTheNormalNumbersAreLowerBounds) {
+    const TriangleSoup<double> soup = corner_triangle();
+    const CollisionMesh<double> mesh(soup.view());
+    const Translation<double> still{{0, 0, 0}, {0, 0, 0}};
+    EXPECT_EQ(mesh.sweep(Segment<double>{{1, 1, 0x1.cp-174}, {1, 1, -0x1p900}}, still)->time, 0x1p-1074);
+    EXPECT_FALSE(mesh.sweep(Segment<double>{{1, 1, 0x1p-176}, {1, 1, -0x1p900}}, still, {.max_fraction = 0}));
+}
+
 TYPED_TEST(Glides, OptionsAndWhatHasNoMeaning) {
     using Scalar = TypeParam;
     using V = Vec3<Scalar>;
