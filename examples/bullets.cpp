@@ -6,6 +6,7 @@
 //   bullets --picture bullets.png        the same with a picture
 #include <array>
 #include <iostream>
+#include <memory>
 #include <sstream>
 #include <vector>
 
@@ -103,9 +104,6 @@ class Bullets : public show::Demo {
         ++steps_;
     }
 
-    [[nodiscard]] std::size_t our_leaks() const { return our_leaks_; }
-    [[nodiscard]] std::size_t their_leaks() const { return their_leaks_; }
-
     [[nodiscard]] const pierce::CollisionMesh<float>& mesh() const override { return mesh_; }
     [[nodiscard]] const pierce::TriangleSoup<float>& soup() const override { return soup_; }
     /// One looks into the hall through its walls.
@@ -143,6 +141,8 @@ class Bullets : public show::Demo {
              << "leaked, plain floats with a skin of " << skin_ << ": " << their_leaks_ << '\n';
         return text.str();
     }
+
+    [[nodiscard]] bool holds() const override { return our_leaks_ == 0; }
 
   private:
     static constexpr std::size_t k_part = 16;
@@ -201,9 +201,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(-1e5, 1e5));
     CLI11_PARSE(app, argc, argv);
     try {
-        Bullets demo(count, offset, skin);
-        show::run(demo, "bullets", options);
-        return demo.our_leaks() == 0 ? 0 : 1;
+        return show::run(std::make_unique<Bullets>(count, offset, skin), "bullets", options);
     } catch (const std::exception& error) {
         std::cerr << "bullets: " << error.what() << '\n';
         return 2;

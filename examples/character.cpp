@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <memory>
 #include <sstream>
 #include <vector>
 
@@ -52,6 +53,7 @@ class Character : public show::Demo {
                            [](const auto& contact) { return contact.overlap > 0; });
     }
     [[nodiscard]] double kept() const { return wished_ > 0 ? flat_way_ / wished_ : 1; }
+    [[nodiscard]] bool holds() const override { return !overlaps() && kept() >= 0.999; }
 
     [[nodiscard]] const pierce::CollisionMesh<float>& mesh() const override { return mesh_; }
     [[nodiscard]] const pierce::TriangleSoup<float>& soup() const override { return soup_; }
@@ -106,9 +108,7 @@ int main(int argc, char** argv) {
     show::add_demo_options(app, options);
     CLI11_PARSE(app, argc, argv);
     try {
-        Character character;
-        show::run(character, "character", options);
-        return character.overlaps() || character.kept() < 0.999 ? 1 : 0;
+        return show::run(std::make_unique<Character>(), "character", options);
     } catch (const std::exception& error) {
         std::cerr << "character: " << error.what() << '\n';
         return 2;

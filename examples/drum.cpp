@@ -3,6 +3,7 @@
 //   drum --picture drum.png              no window: 600 steps, then a picture
 #include <algorithm>
 #include <iostream>
+#include <memory>
 #include <numbers>
 #include <sstream>
 #include <vector>
@@ -92,6 +93,7 @@ class Drum : public show::Demo {
              << leaked() << " outside of the drum after " << steps_ << " steps\n";
         return text.str();
     }
+    [[nodiscard]] bool holds() const override { return leaked() == 0; }
 
   private:
     static constexpr float k_seconds = 1.0f / 120;
@@ -118,9 +120,7 @@ int main(int argc, char** argv) {
     app.add_option("--grains", count, "How many grains (5000)")->check(CLI::Range(1, 10'000'000));
     CLI11_PARSE(app, argc, argv);
     try {
-        Drum drum(count);
-        show::run(drum, "drum", options);
-        return drum.leaked() == 0 ? 0 : 1;
+        return show::run(std::make_unique<Drum>(count), "drum", options);
     } catch (const std::exception& error) {
         std::cerr << "drum: " << error.what() << '\n';
         return 2;

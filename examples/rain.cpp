@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <memory>
 #include <sstream>
 #include <vector>
 
@@ -61,7 +62,9 @@ class Rain : public show::Demo {
         std::vector<pierce::Location> locations(drops_.size());
         mesh_.locate_points({drops_.front().position.data(), drops_.size(), sizeof(Move)}, locations, nullptr,
                             pierce::tbb_executor());
-        return static_cast<std::size_t>(std::ranges::count(locations, pierce::Place::inside, &pierce::Location::place));
+        return static_cast<std::size_t>(std::count_if(locations.begin(), locations.end(), [](const auto& location) {
+            return location.place == pierce::Place::inside;
+        }));
     }
 
     [[nodiscard]] const pierce::CollisionMesh<float>& mesh() const override { return mesh_; }
@@ -96,6 +99,8 @@ class Rain : public show::Demo {
              << leaked() << " inside the mesh after " << steps_ << " steps\n";
         return text.str();
     }
+
+    [[nodiscard]] bool holds() const override { return leaked() == 0; }
 
   private:
     static show::Colour colour_of(MoveState state, bool has_touched) {
@@ -137,9 +142,8 @@ int main(int argc, char** argv) {
     app.add_option("--drops", count, "How many drops (100000)")->check(CLI::Range(1, 100'000'000));
     CLI11_PARSE(app, argc, argv);
     try {
-        Rain rain(show::mesh_or(options, show::bumpy_sphere(80)), count);
-        show::run(rain, "rain", options);
-        return rain.leaked() == 0 ? 0 : 1;
+        auto rain = std::make_unique<Rain>(show::mesh_or(options, show::bumpy_sphere(80)), count);
+        return show::run(std::move(rain), "rain", options);
     } catch (const std::exception& error) {
         std::cerr << "rain: " << error.what() << '\n';
         return 2;

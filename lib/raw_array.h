@@ -2,7 +2,6 @@
 // whichever thread writes a page first has the trouble of getting it.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
@@ -14,6 +13,7 @@
 
 namespace pierce::detail {
 
+#if defined(__linux__)
 struct Free {
     void operator()(void* memory) const { std::free(memory); }
 };
@@ -28,21 +28,27 @@ inline void* allocate_raw(std::size_t bytes, std::size_t alignment) {
         memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
     } else if (bytes < k_page) {
         memory = std::malloc(bytes);
-#if defined(__linux__)
     } else if (posix_memalign(&memory, k_page, bytes) == 0) {
         madvise(memory, bytes / k_page * k_page, MADV_HUGEPAGE);
-#else
-    } else {
-        memory = std::aligned_alloc(std::max(alignment, alignof(std::max_align_t)),
-                                    (bytes + alignment - 1) / alignment * alignment);
-#endif
     }
     if (memory == nullptr && bytes > 0) throw std::bad_alloc();
     return memory;
 }
+#else
+/// Windows' C library has no aligned memory that free() takes back: C++'s is used, always on lines of the cache.
+constexpr std::align_val_t k_line{64};
+
+struct Free {
+    void operator()(void* memory) const { ::operator delete(memory, k_line); }
+};
+
+inline void* allocate_raw(std::size_t bytes, std::size_t) { return ::operator new(bytes, k_line); }
+#endif
 
 template <class T>
 class RawArray {
+    static_assert(alignof(T) <= 64);
+
   public:
     RawArray() = default;
     explicit RawArray(std::size_t size)

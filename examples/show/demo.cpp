@@ -1,17 +1,16 @@
 // See demo.h.
 #include "show/demo.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <iomanip>
 #include <iostream>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
 #include <CLI/CLI.hpp>
+
+#include "show/pictures.h"
 
 #ifdef SHOW_WINDOW
 #include <imgui.h>
@@ -25,33 +24,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// Pictures of one state after the other, from where the first one was seen. What stays as it is, is drawn once.
-class Pictures {
-  public:
-    Pictures(const Demo& demo, const View& view)
-        : demo_(demo), view_(view), camera_(corners_of(demo.soup()), view), still_(view) {
-        draw_mesh();
-    }
-
-    Image next() {
-        if (demo_.mesh_changes()) draw_mesh();
-        Canvas canvas = still_;
-        canvas.draw(camera_, demo_.dots());
-        canvas.draw(camera_, demo_.lines());
-        return canvas.image();
-    }
-
-  private:
-    void draw_mesh() {
-        draw(demo_.mesh(), camera_, still_, std::max(1u, std::thread::hardware_concurrency()), demo_.paint());
-    }
-
-    const Demo& demo_;
-    View view_;
-    Camera camera_;
-    Canvas still_;
-};
 
 void run_without_window(Demo& demo, const DemoOptions& options) {
     std::optional<Pictures> pictures;
@@ -117,38 +89,12 @@ void run_in_window(Demo&, const std::string&, const DemoOptions&) {
 
 }  // namespace
 
-void add_demo_options(CLI::App& app, DemoOptions& options) {
-    app.add_option("MESH", options.mesh, "A mesh: OBJ, OFF, PLY or STL; else one is made");
-    app.add_option("--steps", options.steps, "How many steps without a window (600)")
-        ->check(CLI::Range(0, 1'000'000'000));
-    app.add_option("--picture", options.picture, "No window: draw the last step into this PNG file");
-    app.add_option("--frames", options.frames, "No window: draw each step into a PNG file in this folder");
-    app.add_flag("--no-window", options.no_window, "No window and no picture, figures only");
-    app.add_option("--screenshot", options.screenshot, "Of the window, after --steps frames; then end");
-    app.add_option(
-           "--size",
-           [&options](const CLI::results_t& values) {
-               return std::sscanf(values.front().c_str(), "%dx%d", &options.view.width, &options.view.height) == 2 &&
-                      options.view.width > 0 && options.view.height > 0 && options.view.width <= 10'000 &&
-                      options.view.height <= 10'000;
-           },
-           "Pixels (800x600)")
-        ->type_name("WxH");
-    app.add_option("--samples", options.view.samples, "N times N samples a pixel, for smooth edges (1)")
-        ->check(CLI::Range(1, 8));
-    app.add_option("--azimuth", options.view.azimuth, "Where to look from, in degrees");
-    app.add_option("--elevation", options.view.elevation, "The same, above the horizon");
-}
-
-pierce::TriangleSoup<float> mesh_or(const DemoOptions& options, pierce::TriangleSoup<float> made) {
-    return options.mesh.empty() ? std::move(made) : pierce::read_mesh<float>(options.mesh);
-}
-
-void run(Demo& demo, const std::string& title, const DemoOptions& options) {
+int run(std::unique_ptr<Demo> demo, const std::string& title, const DemoOptions& options) {
     if (options.picture.empty() && options.frames.empty() && !options.no_window)
-        run_in_window(demo, title, options);
+        run_in_window(*demo, title, options);
     else
-        run_without_window(demo, options);
+        run_without_window(*demo, options);
+    return demo->holds() ? 0 : 1;
 }
 
 }  // namespace show

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,11 +52,14 @@ class Demo {
     virtual void panel() {}
     /// Lines for standard output at the end.
     [[nodiscard]] virtual std::string summary() const = 0;
+    /// Whether what it shows is what is promised.
+    [[nodiscard]] virtual bool holds() const { return true; }
 };
 
-/// Runs it as the options say, in a window or without; prints the summary and the time that a step took. Throws
-/// std::runtime_error where no window can be opened or a file can't be written.
-void run(Demo& demo, const std::string& title, const DemoOptions& options);
+/// Runs it as the options say, in a window or without; prints the summary and the time that a step took. Returns the
+/// program's status: 1 if it does not hold. In a browser it returns at once, and the page goes on with the demo
+/// (page.cpp). Throws std::runtime_error where no window can be opened or a file can't be written.
+int run(std::unique_ptr<Demo> demo, const std::string& title, const DemoOptions& options);
 
 /// Reads the mesh, or takes `made` where none is named.
 [[nodiscard]] pierce::TriangleSoup<float> mesh_or(const DemoOptions& options, pierce::TriangleSoup<float> made);

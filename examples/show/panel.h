@@ -1,4 +1,5 @@
-// Sliders and text in a demo's panel: of Dear ImGui, and nothing where a demo is built without it.
+// Sliders and text in a demo's panel: of Dear ImGui, in a browser of the page (page.cpp), and nothing where a demo is
+// built without either.
 #pragma once
 
 #include <string>
@@ -9,23 +10,26 @@
 
 namespace show {
 
-inline void slider([[maybe_unused]] const char* name, [[maybe_unused]] float& value, [[maybe_unused]] float least,
-                   [[maybe_unused]] float most) {
-#ifdef SHOW_WINDOW
+#if defined(__EMSCRIPTEN__)
+
+void slider(const char* name, float& value, float least, float most);
+void check_box(const char* name, bool& value);
+void text(const std::string& words);
+
+#elif defined(SHOW_WINDOW)
+
+inline void slider(const char* name, float& value, float least, float most) {
     ImGui::SliderFloat(name, &value, least, most);
-#endif
 }
+inline void check_box(const char* name, bool& value) { ImGui::Checkbox(name, &value); }
+inline void text(const std::string& words) { ImGui::TextUnformatted(words.c_str()); }
 
-inline void check_box([[maybe_unused]] const char* name, [[maybe_unused]] bool& value) {
-#ifdef SHOW_WINDOW
-    ImGui::Checkbox(name, &value);
-#endif
-}
+#else
 
-inline void text([[maybe_unused]] const std::string& words) {
-#ifdef SHOW_WINDOW
-    ImGui::TextUnformatted(words.c_str());
+inline void slider(const char*, float&, float, float) {}
+inline void check_box(const char*, bool&) {}
+inline void text(const std::string&) {}
+
 #endif
-}
 
 }  // namespace show

@@ -18,7 +18,7 @@ constexpr std::size_t k_some = 4096;  ///< clusters that are looked at for the m
 constexpr double k_finest = 65000;
 /// A scene no wider than this is one cell: sizes stay 2^-47 or more (grid_walk.h).
 constexpr double k_flat = 0x1p-30;
-constexpr std::size_t k_most_bytes = std::size_t{1} << 33;  ///< so that places of references fit 32 bits
+constexpr std::uint64_t k_most_bytes = std::uint64_t{1} << 33;  ///< so that places of references fit 32 bits
 
 using Place = std::atomic_ref<std::uint32_t>;
 
@@ -98,7 +98,8 @@ UniformGrid UniformGrid::make(std::span<const ClusterBox<Scalar>> boxes, const F
     if (boxes.empty()) return grid;
     if (most_bytes == 0) most_bytes = std::max(k_least_bytes, k_bytes * boxes.size());
     const double fixed = static_cast<double>(sizeof(Listed) * boxes.size() + sizeof(std::uint32_t));
-    const double most = (static_cast<double>(std::min(most_bytes, k_most_bytes)) - fixed) / sizeof(std::uint32_t);
+    const double most =
+        (static_cast<double>(std::min<std::uint64_t>(most_bytes, k_most_bytes)) - fixed) / sizeof(std::uint32_t);
 
     const Extent extent = extent_of(boxes, frame, executor);
     double width = 0;

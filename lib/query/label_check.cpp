@@ -8,6 +8,7 @@
 // is the outside. So by induction all parts that bound a cell are joined to one another, and the last to the outside.
 #include <query/label_check.h>
 
+#include <memory>
 #include <numeric>
 #include <sstream>
 
@@ -51,7 +52,7 @@ class LabelCheck {
         for (auto first = wings_.begin(); first != wings_.end();) {
             const auto last =
                 std::find_if(first, wings_.end(), [&](const Wing& w) { return w.u != first->u || w.v != first->v; });
-            check_edge({first, last});
+            check_edge({std::to_address(first), std::to_address(last)});
             first = last;
         }
         check_parts();

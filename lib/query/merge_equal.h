@@ -40,13 +40,13 @@ namespace pierce::detail {
         std::uint64_t hashes[k_block];
         for (std::size_t i = begin; i < end; ++i) {
             hashes[i - begin] = hash_of(positions[i]);
-            __builtin_prefetch(&table[hashes[i - begin] >> (64 - bits)], 1);
+            __builtin_prefetch(&table[static_cast<std::size_t>(hashes[i - begin] >> (64 - bits))], 1);
         }
         for (std::size_t i = begin; i < end; ++i) {
             same[i] = static_cast<std::uint32_t>(i);
             if (std::isnan(positions[i][0])) continue;
             const std::uint64_t tag = hashes[i - begin] << 32;
-            for (std::size_t place = hashes[i - begin] >> (64 - bits);; place = (place + 1) & mask) {
+            for (auto place = static_cast<std::size_t>(hashes[i - begin] >> (64 - bits));; place = (place + 1) & mask) {
                 std::uint64_t& entry = table[place];
                 if (entry == k_free) {
                     entry = tag | i;

@@ -32,7 +32,8 @@ class Random {
     Vec3<double> direction() {
         for (;;) {
             const Vec3<double> v = in_cube();
-            const double square = v.squaredNorm();
+            // Not squaredNorm, which adds in another order where there are vectors of other lengths.
+            const double square = v.x() * v.x() + v.y() * v.y() + v.z() * v.z();
             if (square > 1e-4 && square < 1) return v / std::sqrt(square);
         }
     }

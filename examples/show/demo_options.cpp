@@ -1,0 +1,38 @@
+// The command line that all demos have. See demo.h.
+#include <cstdio>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include "show/demo.h"
+
+namespace show {
+
+void add_demo_options(CLI::App& app, DemoOptions& options) {
+    app.add_option("MESH", options.mesh, "A mesh: OBJ, OFF, PLY or STL; else one is made");
+    app.add_option("--steps", options.steps, "How many steps without a window (600)")
+        ->check(CLI::Range(0, 1'000'000'000));
+    app.add_option("--picture", options.picture, "No window: draw the last step into this PNG file");
+    app.add_option("--frames", options.frames, "No window: draw each step into a PNG file in this folder");
+    app.add_flag("--no-window", options.no_window, "No window and no picture, figures only");
+    app.add_option("--screenshot", options.screenshot, "Of the window, after --steps frames; then end");
+    app.add_option(
+           "--size",
+           [&options](const CLI::results_t& values) {
+               return std::sscanf(values.front().c_str(), "%dx%d", &options.view.width, &options.view.height) == 2 &&
+                      options.view.width > 0 && options.view.height > 0 && options.view.width <= 10'000 &&
+                      options.view.height <= 10'000;
+           },
+           "Pixels (800x600)")
+        ->type_name("WxH");
+    app.add_option("--samples", options.view.samples, "N times N samples a pixel, for smooth edges (1)")
+        ->check(CLI::Range(1, 8));
+    app.add_option("--azimuth", options.view.azimuth, "Where to look from, in degrees");
+    app.add_option("--elevation", options.view.elevation, "The same, above the horizon");
+}
+
+pierce::TriangleSoup<float> mesh_or(const DemoOptions& options, pierce::TriangleSoup<float> made) {
+    return options.mesh.empty() ? std::move(made) : pierce::read_mesh<float>(options.mesh);
+}
+
+}  // namespace show
