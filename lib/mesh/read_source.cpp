@@ -20,8 +20,8 @@ struct CloseFile {
 std::string printable(std::string_view text) {
     std::string line(text);
     // A message is one line whatever the file, or its name, holds. Bytes above 127 are left: names are often UTF-8.
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return (c >= 0 && c < ' ') || c == 127; }, '?');
+    const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };  // char has a sign on some machines
+    std::replace_if(line.begin(), line.end(), is_control, '?');
     return line;
 }
 
