@@ -43,8 +43,8 @@ struct FanTurn {
 
 static_assert(sizeof(FanFirst<float>) == 12 * sizeof(float) && sizeof(FanTurn<float>) == 6 * sizeof(float));
 
-/// Two edges at the apex times the power of two that brings their largest component into 1 .. 2, and n = ab x ac there,
-/// so that n.n has no fourth power of a length. N is n in the world's units, n / scale.
+/// Two edges at the apex times the power of two that brings their largest component between 1 and 2, and n = ab x ac
+/// there, so that n.n has no fourth power of a length. N is n in the world's units, n / scale.
 ///
 /// With R for `k_fan_range`, which allows the exponents -R - 1 .. R: edges are at most 2 sqrt(3) < 2^1.8 long, n 2^3.6,
 /// and at least 2^-R. The edges and N of one basis are at most 2^(2 R + 1) times as large in the units of the next. So
