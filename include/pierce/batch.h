@@ -23,7 +23,9 @@ template <class Scalar>
 class Segments {
   public:
     Segments() = default;
+    /// Starts and ends; a batch refuses a different number of them.
     Segments(const PointsView<Scalar>& starts, const PointsView<Scalar>& ends) : starts_(starts), ends_(ends) {}
+    /// A vector, an array or a span of segments.
     template <detail::SpanOf<Segment<Scalar>> Range>
     Segments(const Range& segments) {
         static_assert(sizeof(Segment<Scalar>) == 6 * sizeof(Scalar));
@@ -33,9 +35,13 @@ class Segments {
         ends_ = {all[0].to.data(), all.size(), sizeof(Segment<Scalar>)};
     }
 
+    /// How many segments there are: as many as starts.
     [[nodiscard]] std::size_t size() const { return starts_.size(); }
+    /// Where they begin.
     [[nodiscard]] const PointsView<Scalar>& starts() const { return starts_; }
+    /// Where they end.
     [[nodiscard]] const PointsView<Scalar>& ends() const { return ends_; }
+    /// A copy of segment i, which must be below `size()`.
     [[nodiscard]] Segment<Scalar> operator[](std::size_t i) const { return {starts_[i], ends_[i]}; }
 
   private:
@@ -49,6 +55,7 @@ template <class Scalar>
 class Rays {
   public:
     Rays() = default;
+    /// Origins and directions, with one limit for all; a batch refuses a different number of them.
     Rays(const PointsView<Scalar>& origins, const PointsView<Scalar>& directions,
          Scalar limit = std::numeric_limits<Scalar>::infinity())
         : origins_(origins), directions_(directions), limit_(limit) {}
@@ -59,6 +66,7 @@ class Rays {
           directions_(directions),
           limits_(reinterpret_cast<const std::byte*>(limits)),
           limit_stride_(stride) {}
+    /// A vector, an array or a span of rays.
     template <detail::SpanOf<Ray<Scalar>> Range>
     Rays(const Range& rays) {
         const std::span<const Ray<Scalar>> all(rays);
@@ -69,9 +77,13 @@ class Rays {
         limit_stride_ = sizeof(Ray<Scalar>);
     }
 
+    /// How many rays there are: as many as origins.
     [[nodiscard]] std::size_t size() const { return origins_.size(); }
+    /// Where they begin.
     [[nodiscard]] const PointsView<Scalar>& origins() const { return origins_; }
+    /// Where they go.
     [[nodiscard]] const PointsView<Scalar>& directions() const { return directions_; }
+    /// A copy of ray i, which must be below `size()`.
     [[nodiscard]] Ray<Scalar> operator[](std::size_t i) const {
         Ray<Scalar> ray{origins_[i], directions_[i], limit_};
         if (limits_ != nullptr)
@@ -101,26 +113,26 @@ concept RaysOf =
 /// 0.
 template <class Scalar>
 struct HitArrays {
-    std::size_t count = 0;  ///< how many entries each array has
-    std::uint8_t* hit = nullptr;
-    Scalar* fraction = nullptr;
-    Scalar* exact_fraction = nullptr;
-    Scalar* point = nullptr;
-    Scalar* position = nullptr;
-    Scalar* normal = nullptr;
-    Scalar* barycentric = nullptr;
-    std::uint32_t* face = nullptr;
-    std::uint32_t* triangle = nullptr;
-    Sides* side = nullptr;
-    Feature* feature = nullptr;
-    std::uint8_t* feature_index = nullptr;
-    std::uint8_t* at_start = nullptr;
+    std::size_t count = 0;                  ///< how many entries each array has
+    std::uint8_t* hit = nullptr;            ///< 1 or 0
+    Scalar* fraction = nullptr;             ///< `Hit::fraction`
+    Scalar* exact_fraction = nullptr;       ///< `Hit::exact_fraction`
+    Scalar* point = nullptr;                ///< `Hit::point`, three numbers a hit
+    Scalar* position = nullptr;             ///< `Hit::position`, three numbers a hit
+    Scalar* normal = nullptr;               ///< `Hit::normal`, three numbers a hit
+    Scalar* barycentric = nullptr;          ///< `Hit::barycentric`, three numbers a hit
+    std::uint32_t* face = nullptr;          ///< `Hit::face`
+    std::uint32_t* triangle = nullptr;      ///< `Hit::triangle`
+    Sides* side = nullptr;                  ///< `Hit::side`
+    Feature* feature = nullptr;             ///< `Hit::feature`
+    std::uint8_t* feature_index = nullptr;  ///< `Hit::feature_index`
+    std::uint8_t* at_start = nullptr;       ///< `Hit::at_start`, 1 or 0
 };
 
 /// Where a batch writes its hits; the bits are the same in each:
-///   std::vector<std::optional<Hit>>, or a span of them
-///   std::vector<Hit>, or a span of them: plain memory, in which a miss is `no_hit`
-///   HitArrays
+/// - `std::vector<std::optional<Hit>>`, or a span of them;
+/// - `std::vector<Hit>`, or a span of them: plain memory, in which a miss is `no_hit`;
+/// - `HitArrays`.
 template <class Scalar>
 using HitsOut = std::variant<std::span<std::optional<Hit<Scalar>>>, std::span<Hit<Scalar>>, HitArrays<Scalar>>;
 

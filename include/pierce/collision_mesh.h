@@ -43,17 +43,17 @@ struct Inside;
 
 /// What was built, and what was odd about it. Bytes are those the library holds, all of them counted.
 struct MeshStatistics {
-    std::size_t vertices = 0;
-    std::size_t faces = 0;  ///< of the caller: different numbers in `MeshView::faces`
-    std::size_t triangles = 0;
-    std::size_t degenerate = 0;  ///< triangles of area exactly zero: kept, and never hit
-    std::size_t clusters = 0;    ///< records of up to eight triangles
-    Broadphase broadphase = Broadphase::tree;
-    std::size_t nodes = 0;              ///< of the tree; 0 with a grid
-    double cell_size = 0;               ///< of the grid; 0 with a tree
-    std::size_t grid_references = 0;    ///< entries of all its cell lists together
-    std::string_view backend;           ///< the instruction set of the wide kernels; empty if nothing was built
-    std::size_t bytes = 0;              ///< 0 if nothing was built
+    std::size_t vertices = 0;                  ///< positions, used or not
+    std::size_t faces = 0;                     ///< of the caller: different numbers in `MeshView::faces`
+    std::size_t triangles = 0;                 ///< all of them, those without area too
+    std::size_t degenerate = 0;                ///< triangles of area exactly zero: kept, and never hit
+    std::size_t clusters = 0;                  ///< records of up to eight triangles
+    Broadphase broadphase = Broadphase::tree;  ///< what was chosen: `tree` or `grid`
+    std::size_t nodes = 0;                     ///< of the tree; 0 with a grid
+    double cell_size = 0;                      ///< of the grid; 0 with a tree
+    std::size_t grid_references = 0;           ///< entries of all its cell lists together
+    std::string_view backend;                  ///< the instruction set of the wide kernels; empty if nothing was built
+    std::size_t bytes = 0;                     ///< 0 if nothing was built
     std::uint64_t invalid_queries = 0;  ///< queries so far with a coordinate that is NaN or infinite: they had no hit
 };
 
@@ -63,6 +63,9 @@ struct MeshStatistics {
 /// the last bit: not on the broadphase, the threads, the machine or the order of queries. Ends may be as far away as
 /// numbers go. Where both are further from the mesh than some 10^10 times its size, the values of a hit take exact
 /// arithmetic in double, some 7 us a hit; `any_hit` and misses cost what they cost from near.
+///
+/// As a rule a query takes the logarithm of the number of triangles, and more for what it comes near; at worst it looks
+/// at all of them.
 template <class Scalar>
 class PIERCE_EXPORT CollisionMesh : public MotionSweeps<Scalar> {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
@@ -70,7 +73,8 @@ class PIERCE_EXPORT CollisionMesh : public MotionSweeps<Scalar> {
   public:
     /// Throws `MeshError` where an index is out of range or a coordinate not finite, naming it; for more than 2^32 - 2
     /// vertices or 2^28 - 1 triangles; and for a flat mesh that is 2^122 (double: 2^1018) of its sizes from the origin.
-    /// std::invalid_argument: an option has no meaning. A mesh without triangles is fine, and is never hit.
+    /// std::invalid_argument: an option has no meaning. A mesh without triangles is fine, and is never hit. Takes
+    /// n log n time for n triangles.
     explicit CollisionMesh(const MeshView<Scalar>& mesh, const BuildOptions& options = {});
     /// The same without exceptions: an empty mesh, a status and the exception's text where the constructor throws.
     [[nodiscard]] static Result<CollisionMesh> try_make(const MeshView<Scalar>& mesh,
@@ -135,14 +139,17 @@ class PIERCE_EXPORT CollisionMesh : public MotionSweeps<Scalar> {
                                                        const QueryOptions& options = {}) const noexcept {
         return first_hit_of_ray(ray, options);
     }
+    /// Whether the ray hits anything.
     template <std::same_as<Ray<Scalar>> Way>
     [[nodiscard]] bool any_hit(const Way& ray, const QueryOptions& options = {}) const noexcept {
         return any_hit_of_ray(ray, options);
     }
+    /// As `all_hits` of a segment.
     template <std::same_as<Ray<Scalar>> Way>
     std::size_t all_hits(const Way& ray, std::span<Hit<Scalar>> out, const QueryOptions& options = {}) const noexcept {
         return all_hits_of_ray(ray, out, options);
     }
+    /// As `crossings` of a segment.
     template <std::same_as<Ray<Scalar>> Way>
     [[nodiscard]] int crossings(const Way& ray, QueryCounters* counters = nullptr) const noexcept {
         return crossings_of_ray(ray, counters);
@@ -169,6 +176,7 @@ class PIERCE_EXPORT CollisionMesh : public MotionSweeps<Scalar> {
     /// not as many places for answers as segments; nothing is written then. A program without exceptions ends there.
     std::size_t first_hits(const Segments<Scalar>& segments, const HitsOut<Scalar>& out,
                            const QueryOptions& options = {}, const Executor& executor = {}) const;
+    /// The same as `first_hits`, for steps of moving points.
     std::size_t sweeps(const Segments<Scalar>& steps, const HitsOut<Scalar>& out, const QueryOptions& options = {},
                        const Executor& executor = {}) const;
     /// An answer is 1 or 0.
@@ -212,11 +220,13 @@ class PIERCE_EXPORT CollisionMesh : public MotionSweeps<Scalar> {
     /// MiB at most. The others allocate nothing.
     std::size_t contains_points(const PointsView<Scalar>& points, std::span<std::uint8_t> out,
                                 QueryCounters* counters = nullptr, const Executor& executor = {}) const;
+    /// `out[i]` is the winding number at point i.
     void winding_numbers(const PointsView<Scalar>& points, std::span<int> out, QueryCounters* counters = nullptr,
                          const Executor& executor = {}) const;
     /// Returns the number of points that are on the surface.
     std::size_t locate_points(const PointsView<Scalar>& points, std::span<Location> out,
                               QueryCounters* counters = nullptr, const Executor& executor = {}) const;
+    /// `out[i]` is what `crossings` of segment i says.
     void crossings(const Segments<Scalar>& segments, std::span<int> out, QueryCounters* counters = nullptr,
                    const Executor& executor = {}) const;
 
@@ -233,16 +243,19 @@ class PIERCE_EXPORT CollisionMesh : public MotionSweeps<Scalar> {
                            const Executor& executor = {}) const {
         return first_hits_of_rays(rays, out, options, executor);
     }
+    /// An answer is 1 or 0.
     template <detail::RaysOf<Scalar> Batch>
     std::size_t any_hits(const Batch& rays, std::span<std::uint8_t> out, const QueryOptions& options = {},
                          const Executor& executor = {}) const {
         return any_hits_of_rays(rays, out, options, executor);
     }
+    /// `out[i]` is what `crossings` of ray i says.
     template <detail::RaysOf<Scalar> Batch>
     void crossings(const Batch& rays, std::span<int> out, QueryCounters* counters = nullptr,
                    const Executor& executor = {}) const {
         crossings_of_rays(rays, out, counters, executor);
     }
+    /// Compressed rows, as of segments.
     template <detail::RaysOf<Scalar> Batch>
     std::size_t all_hits(const Batch& rays, std::span<std::size_t> offsets, std::span<Hit<Scalar>> hits,
                          const QueryOptions& options = {}, const Executor& executor = {}) const {
@@ -295,6 +308,7 @@ class PIERCE_EXPORT CollisionMesh : public MotionSweeps<Scalar> {
     /// worst all of them.
     [[nodiscard]] MeshReport mesh_report() const;
 
+    /// What was built, and how many queries were invalid so far. Takes constant time.
     [[nodiscard]] MeshStatistics statistics() const noexcept;
 
   private:

@@ -13,22 +13,31 @@ namespace pierce {
 /// Eigen (`v.dot(hit.normal)` is `hit.normal.dot(v)`, or `v.dot(hit.normal.vec())`).
 template <class Scalar>
 struct Coordinates {
+    /// What it becomes: a vector of Eigen's.
     using Vec = Vec3<Scalar>;
 
-    Scalar values[3];
+    Scalar values[3];  ///< x, y, z
 
     Coordinates() = default;
+    /// From three numbers.
     constexpr Coordinates(Scalar x, Scalar y, Scalar z) : values{x, y, z} {}
-    // Not implicit: `hit ? hit->point : target` could not choose.
+    /// From a vector. Not implicit: `hit ? hit->point : target` could not choose.
     explicit Coordinates(const Vec& v) : values{v[0], v[1], v[2]} {}
+    /// Takes the numbers of a vector.
     Coordinates& operator=(const Vec& v) { return *this = Coordinates(v); }
 
+    /// The same numbers as a vector of Eigen's.
     [[nodiscard]] Vec vec() const { return Vec(values[0], values[1], values[2]); }
+    /// The same, where one is wanted.
     operator Vec() const { return vec(); }
 
+    /// The first number.
     [[nodiscard]] constexpr Scalar x() const { return values[0]; }
+    /// The second one.
     [[nodiscard]] constexpr Scalar y() const { return values[1]; }
+    /// The third one.
     [[nodiscard]] constexpr Scalar z() const { return values[2]; }
+    /// Number i, from 0 to 2; not checked.
     template <std::integral Index>
     [[nodiscard]] constexpr Scalar operator[](Index i) const {
         return values[i];
@@ -37,16 +46,22 @@ struct Coordinates {
     [[nodiscard]] constexpr Scalar& operator[](Index i) {
         return values[i];
     }
+    /// Where the three numbers are.
     [[nodiscard]] constexpr Scalar* data() { return values; }
     [[nodiscard]] constexpr const Scalar* data() const { return values; }
 
+    /// As of vectors, with one of Eigen's or of this type.
     [[nodiscard]] Scalar dot(const Vec& v) const { return vec().dot(v); }
+    /// The cross product with another vector.
     [[nodiscard]] Vec cross(const Vec& v) const {
         return Vec(values[1] * v[2] - values[2] * v[1], values[2] * v[0] - values[0] * v[2],
                    values[0] * v[1] - values[1] * v[0]);
     }
+    /// The length.
     [[nodiscard]] Scalar norm() const { return vec().norm(); }
+    /// The square of the length.
     [[nodiscard]] Scalar squaredNorm() const { return vec().squaredNorm(); }
+    /// The same in another type of number.
     template <class Other>
     [[nodiscard]] Vec3<Other> cast() const {
         return vec().template cast<Other>();

@@ -33,8 +33,9 @@ class PIERCE_EXPORT DeformationStep {
     DeformationStep& operator=(const DeformationStep&) noexcept;
     DeformationStep& operator=(DeformationStep&&) noexcept;
 
-    /// The mesh as it stands still at the beginning and at the end: every query that `CollisionMesh` has.
+    /// The mesh as it stands still at the beginning: every query that `CollisionMesh` has.
     [[nodiscard]] const CollisionMesh<Scalar>& before() const noexcept;
+    /// The same at the end.
     [[nodiscard]] const CollisionMesh<Scalar>& after() const noexcept;
 
     /// A point goes from `way.from` to `way.to` while the mesh goes from `before` to `after`: the first contact in
@@ -59,6 +60,7 @@ class PIERCE_EXPORT DeformationStep {
     std::shared_ptr<const Impl> impl_;  ///< null: no triangles
 };
 
+/// What may be chosen when a `DeformingMesh` is made.
 struct DeformationOptions {
     /// How the static meshes of both ends are built; the executor is that of the first build only.
     BuildOptions build = {};
@@ -107,6 +109,7 @@ class PIERCE_EXPORT DeformingMesh {
                                                         const QueryOptions& options = {}) const noexcept {
         return step().sweep(way, options);
     }
+    /// The same for many.
     std::size_t sweeps(const Segments<Scalar>& ways, std::span<std::optional<SweepHit<Scalar>>> out,
                        const QueryOptions& options = {}, const Executor& executor = {}) const {
         return step().sweeps(ways, out, options, executor);

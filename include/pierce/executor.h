@@ -13,11 +13,13 @@ namespace pierce {
 /// throws.
 class Task {
   public:
+    /// Refers to a callable that takes the number of a part, and has to outlive the task.
     template <class Callable>
     requires(!std::is_same_v<std::remove_cvref_t<Callable>, Task>) Task(Callable&& callable)
         : callable_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
           call_([](void* c, std::size_t part) { (*static_cast<std::remove_reference_t<Callable>*>(c))(part); }) {}
 
+    /// Does one part.
     void operator()(std::size_t part) const { call_(callable_, part); }
 
   private:
@@ -37,14 +39,18 @@ class Executor {
 
   public:
     Executor() = default;
+    /// Keeps a copy of a callable.
     template <class Callable>
     requires(Kept::keeps<Callable>) Executor(const Callable& callable) : kept_(callable) {}
+    /// Refuses what can't be kept, and says what to do.
     template <class Callable>
     requires(!Kept::keeps<Callable> && std::is_invocable_v<Callable&, std::size_t, Task>) Executor(const Callable&) {
         static_assert(Kept::template keeps<Callable>, PIERCE_REFUSED_CALLABLE);
     }
 
+    /// Whether there is one: without one the caller's thread does all parts.
     explicit operator bool() const { return static_cast<bool>(kept_); }
+    /// Does all parts of a task, and returns when they are done.
     void operator()(std::size_t parts, Task task) const {
         if (kept_ && parts > 1) return kept_(parts, task);
         for (std::size_t i = 0; i < parts; ++i) task(i);

@@ -9,6 +9,8 @@
 
 namespace pierce {
 
+/// Why a face is not the first hit, or that it is. Of several reasons one is named: `zero_area` before `apart`, that
+/// before `masked`, and that before all others.
 enum class Reason : std::uint8_t {
     first_hit,     ///< this is it
     later,         ///< hit, but another hit comes before
@@ -24,10 +26,11 @@ enum class Reason : std::uint8_t {
     not_accepted,  ///< hit, but `accept` said no
 };
 
+/// What `explain` says of a face.
 struct FaceVerdict {
-    std::uint32_t face;
-    std::uint32_t triangle;
-    Reason reason;
+    std::uint32_t face;      ///< the caller's number
+    std::uint32_t triangle;  ///< its place in `MeshView::triangles`
+    Reason reason;           ///< why it is hit or not
     /// For `outside_edge`: k says the edge from corner k to corner k+1; of two, the lower one. Else 0.
     std::uint8_t edge = 0;
 };

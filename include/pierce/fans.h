@@ -15,10 +15,11 @@ namespace pierce {
 /// Triangles around one vertex, each joined to the next by an edge that runs from it: k is (apex, ring[k],
 /// ring[k + 1]), with the same orientation as in the mesh.
 struct Fan {
-    std::uint32_t apex = 0;
+    std::uint32_t apex = 0;                ///< the vertex that all share
     std::vector<std::uint32_t> ring;       ///< vertices, one more than triangles; a closed fan's last is its first
     std::vector<std::uint32_t> triangles;  ///< their places in `MeshView::triangles`
 
+    /// Whether it goes all the way round.
     [[nodiscard]] bool closed() const { return ring.size() > 3 && ring.front() == ring.back(); }
 };
 

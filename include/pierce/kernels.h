@@ -1,7 +1,7 @@
 // Nine ways to test a segment against one triangle, as their sources have them, under one concept: prepare, then test.
 //
-//   const auto stored = pierce::kernels::bloom.prepare(a, b, c);          // a, b, c: Eigen::Vector3f or Vector3d
-//   if (const auto hit = pierce::kernels::bloom.test(stored, from, to))    // hit->fraction, hit->u, hit->v
+//     const auto stored = pierce::kernels::bloom.prepare(a, b, c);          // a, b, c: Eigen::Vector3f or Vector3d
+//     if (const auto hit = pierce::kernels::bloom.test(stored, from, to))    // hit->fraction, hit->u, hit->v
 //
 // For when you have your own structure around triangles. All but `exact` round as they go: what each then gets wrong is
 // said where it is declared. Read kernels/concept.h first.

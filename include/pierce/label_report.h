@@ -13,8 +13,8 @@ namespace pierce {
 
 /// The regions on the two sides of a face: numbers of the caller's choice.
 struct FaceRegions {
-    std::uint32_t front = 0;
-    std::uint32_t behind = 0;
+    std::uint32_t front = 0;   ///< the side that sees its corners counter-clockwise
+    std::uint32_t behind = 0;  ///< the other side
 
     friend bool operator==(const FaceRegions&, const FaceRegions&) = default;
 };
@@ -29,8 +29,9 @@ struct FaceRegions {
 /// volumes overlap, faces cross away from all edges. The labels agree around each edge then, and not in space. That is
 /// not looked for; a flight through such a place shows it by a leg that is not consistent (`Leg::consistent`).
 struct LabelReport {
-    static constexpr std::size_t k_examples = 8;
+    static constexpr std::size_t k_examples = 8;  ///< the length of lists, at most
 
+    /// Two faces, or the two sides of one, and what they say.
     struct Disagreement {
         std::array<std::uint32_t, 2> edge;     ///< numbers of positions
         std::array<std::uint32_t, 2> faces;    ///< the caller's, the first one's side towards the second

@@ -24,7 +24,7 @@ struct FaceTouch {
     std::uint32_t triangle = 0;
     /// What of the triangle the point lies on, exactly, as in `Hit`.
     Feature feature = Feature::face;
-    std::uint8_t feature_index = 0;
+    std::uint8_t feature_index = 0;  ///< as in `Hit`
     /// In `passages` what the triangle adds to `Passage::crossings`: 1, 0 or -1. In `locate` 0.
     std::int8_t crossing = 0;
 };
@@ -35,7 +35,7 @@ struct FaceTouch {
 /// On an open mesh `on_surface` means the same, and inside and outside are those of the winding number. A point with a
 /// coordinate that is NaN or infinite is `outside`, and counted in `MeshStatistics::invalid_queries`.
 struct Location {
-    Place place = Place::outside;
+    Place place = Place::outside;  ///< decided exactly
     /// That of `CollisionMesh::winding_number`. So a point of the surface has that of the places next to it in the
     /// direction of (e, e^2, e^3) for e -> 0+: a particle that rests on a floor from above is not in the ground by it,
     /// one that touches a ceiling from below is.

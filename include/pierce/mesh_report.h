@@ -14,9 +14,9 @@ namespace pierce {
 /// Vertices with equal coordinates count as one here, whatever their numbers: that is how queries see them. Triangles
 /// of area zero are counted, and left out of the rest. Lists hold the first `k_examples` cases.
 struct MeshReport {
-    static constexpr std::size_t k_examples = 8;
-    static constexpr std::size_t k_most_around_edge = 8;
-    using Edge = std::array<std::uint32_t, 2>;  ///< numbers of positions
+    static constexpr std::size_t k_examples = 8;          ///< the length of lists, at most
+    static constexpr std::size_t k_most_around_edge = 8;  ///< the last place of `edges_with`
+    using Edge = std::array<std::uint32_t, 2>;            ///< numbers of positions
 
     std::size_t zero_area = 0;              ///< triangles: they are never hit
     std::size_t duplicates = 0;             ///< triangles with the same corners as one before, either way round
@@ -32,13 +32,13 @@ struct MeshReport {
     /// edge one way as the other, so never with an odd number.
     std::array<std::size_t, k_most_around_edge + 1> edges_with{};
 
-    std::vector<std::uint32_t> zero_area_triangles;
-    std::vector<std::uint32_t> duplicate_triangles;
-    std::vector<Edge> border_edge_list;
-    std::vector<Edge> non_manifold_edge_list;
-    std::vector<Edge> misoriented_edge_list;
-    std::vector<std::uint32_t> non_manifold_vertex_list;
-    std::vector<std::uint32_t> t_junction_list;
+    std::vector<std::uint32_t> zero_area_triangles;       ///< places in `MeshView::triangles`, as in the next list
+    std::vector<std::uint32_t> duplicate_triangles;       ///< each a repetition of one before
+    std::vector<Edge> border_edge_list;                   ///< edges with one triangle
+    std::vector<Edge> non_manifold_edge_list;             ///< edges with more than two
+    std::vector<Edge> misoriented_edge_list;              ///< edges that more triangles follow one way
+    std::vector<std::uint32_t> non_manifold_vertex_list;  ///< numbers of positions, as in the next list
+    std::vector<std::uint32_t> t_junction_list;           ///< border vertices within a border edge
 
     /// No edge has more triangles on one side than on the other: then the surface has an inside, `crossings` add up,
     /// and no particle gets from one side to the other without a hit.

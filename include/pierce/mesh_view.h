@@ -25,12 +25,15 @@ class TrianglesView {
     /// Signed ones, as in many programs: a negative one is out of range.
     TrianglesView(const std::int32_t* first, std::size_t size, std::ptrdiff_t stride = 3 * sizeof(std::int32_t))
         : first_(reinterpret_cast<const std::byte*>(first)), size_(size), stride_(stride) {}
+    /// The same of 16 bits.
     TrianglesView(const std::uint16_t* first, std::size_t size, std::ptrdiff_t stride = 3 * sizeof(std::uint16_t))
         : first_(reinterpret_cast<const std::byte*>(first)), size_(size), stride_(stride), short_(true) {}
 
+    /// A vector, an array or a span of triples.
     template <detail::SpanOf<IndexTriple> Range>
     TrianglesView(const Range& triangles)
         : TrianglesView(reinterpret_cast<const std::uint32_t*>(std::data(triangles)), std::size(triangles)) {}
+    /// The same of triples of 16 bits.
     template <detail::SpanOf<std::array<std::uint16_t, 3>> Range>
     TrianglesView(const Range& triangles)
         : TrianglesView(reinterpret_cast<const std::uint16_t*>(std::data(triangles)), std::size(triangles)) {}
@@ -49,8 +52,11 @@ class TrianglesView {
         left_over_ = std::size(indices) % 3;
     }
 
+    /// How many triangles there are.
     [[nodiscard]] std::size_t size() const { return size_; }
+    /// Whether there are none.
     [[nodiscard]] bool empty() const { return size_ == 0; }
+    /// Bytes from one triangle to the next.
     [[nodiscard]] std::ptrdiff_t stride() const { return stride_; }
     /// Where the first index is; null where indices have 16 bits.
     [[nodiscard]] const std::uint32_t* data() const {
@@ -58,6 +64,7 @@ class TrianglesView {
     }
     /// How many indices of a flat array are too many for whole triangles, and too few for one more.
     [[nodiscard]] std::size_t left_over() const { return left_over_; }
+    /// A copy of the corners of triangle i, which must be below `size()`.
     [[nodiscard]] IndexTriple operator[](std::size_t i) const {
         return short_ ? load<std::uint16_t>(i) : load<std::uint32_t>(i);
     }
@@ -90,10 +97,11 @@ template <class Scalar>
 struct MeshView {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
 
-    PointsView<Scalar> positions;
-    TrianglesView triangles;
-    std::span<const std::uint32_t> faces = {};
+    PointsView<Scalar> positions;               ///< of the vertices, in any unit of length
+    TrianglesView triangles;                    ///< corners as indices of `positions`
+    std::span<const std::uint32_t> faces = {};  ///< the caller's number of each triangle, or empty
 
+    /// The number that hits name a triangle by.
     [[nodiscard]] std::uint32_t face_of(std::size_t triangle) const {
         return faces.empty() ? static_cast<std::uint32_t>(triangle) : faces[triangle];
     }

@@ -21,8 +21,8 @@ struct Turn;
 /// of it is at x + from, and x + to. These are the exact sums, which need not be numbers of the type.
 template <class Scalar>
 struct Translation {
-    Vec3<Scalar> from;
-    Vec3<Scalar> to;
+    Vec3<Scalar> from;  ///< the translation at the start of the step
+    Vec3<Scalar> to;    ///< the translation at its end
 };
 
 template <class Scalar>
@@ -32,8 +32,8 @@ Translation(Vec3<Scalar>, Vec3<Scalar>) -> Translation<Scalar>;
 /// `RigidHit::local` gives it, `to` in the world.
 template <class Scalar>
 struct Ride {
-    Vec3<Scalar> from;
-    Vec3<Scalar> to;
+    Vec3<Scalar> from;  ///< in the mesh's coordinates
+    Vec3<Scalar> to;    ///< in the world
 };
 
 template <class Scalar>
@@ -86,10 +86,11 @@ class PIERCE_EXPORT RigidMotion {
     /// The last pose, as it was given or made: the next step's first one.
     [[nodiscard]] const Pose<double>& end() const noexcept { return end_; }
 
-    /// Where the mesh has a point of the world, at the start and at the end of the step: rounded to `Scalar`, and what
-    /// sweeps go by. Not finite: not finite.
+    /// Where the mesh has a point of the world at the start of the step: rounded to `Scalar`, and what sweeps go by.
+    /// Not finite: not finite.
     template <class Scalar>
     [[nodiscard]] Vec3<Scalar> start_in_mesh(const Vec3<Scalar>& point) const noexcept;
+    /// The same at the end of the step.
     template <class Scalar>
     [[nodiscard]] Vec3<Scalar> end_in_mesh(const Vec3<Scalar>& point) const noexcept;
     /// Where a point of the mesh is in the world at the end of the step, rounded: for a rider that stays where it is.

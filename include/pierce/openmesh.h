@@ -149,33 +149,35 @@ class SilentErrors {
 
 }  // namespace openmesh_detail
 
-// The handles that a hit stands for: `mesh` is the one that was given to `from_openmesh`, its connectivity unchanged.
+// The handles that a hit stands for.
 
+/// The face that was hit. Here and below the mesh is the one that was given to `from_openmesh`, its connectivity
+/// unchanged.
 template <class Scalar>
 [[nodiscard]] OpenMesh::FaceHandle face_handle(const Hit<Scalar>& hit) {
     return OpenMesh::FaceHandle(static_cast<int>(hit.face));
 }
 
-/// The corners a, b, c.
+/// The corners a, b, c of the face that was hit.
 template <class Mesh, class Scalar>
 [[nodiscard]] std::array<OpenMesh::VertexHandle, 3> corner_handles(const Mesh& mesh, const Hit<Scalar>& hit) {
     return openmesh_detail::corners(mesh, face_handle(hit));
 }
 
-// What the hit lies on, the halfedge being that of the face which was hit; a handle that is not valid if it lies on
-// something else.
-
+/// Of a hit on an edge, the halfedge of the face that was hit; else a handle that is not valid.
 template <class Mesh, class Scalar>
 [[nodiscard]] OpenMesh::HalfedgeHandle halfedge_handle(const Mesh& mesh, const Hit<Scalar>& hit) {
     return hit.feature == Feature::edge ? openmesh_detail::halfedges(mesh, face_handle(hit))[hit.feature_index]
                                         : OpenMesh::HalfedgeHandle();
 }
 
+/// Of a hit on an edge, that edge; else a handle that is not valid.
 template <class Mesh, class Scalar>
 [[nodiscard]] OpenMesh::EdgeHandle edge_handle(const Mesh& mesh, const Hit<Scalar>& hit) {
     return hit.feature == Feature::edge ? mesh.edge_handle(halfedge_handle(mesh, hit)) : OpenMesh::EdgeHandle();
 }
 
+/// Of a hit at a corner, that vertex; else a handle that is not valid.
 template <class Mesh, class Scalar>
 [[nodiscard]] OpenMesh::VertexHandle vertex_handle(const Mesh& mesh, const Hit<Scalar>& hit) {
     return hit.feature == Feature::vertex ? corner_handles(mesh, hit)[hit.feature_index] : OpenMesh::VertexHandle();

@@ -42,7 +42,7 @@ struct BuildOptions {
 /// What a query went through, added up over the queries that were given the same counters. Not thread-safe: one for
 /// each thread.
 struct QueryCounters {
-    std::uint64_t queries = 0;
+    std::uint64_t queries = 0;          ///< single ones, or those of batches
     std::uint64_t nodes = 0;            ///< nodes of the tree, or cells of the grid, visited
     std::uint64_t clusters = 0;         ///< clusters of up to eight triangles given to the wide kernels
     std::uint64_t triangles = 0;        ///< triangles that those could not refuse
@@ -55,14 +55,14 @@ struct QueryCounters {
 
 /// A hit before it is weighed against others: what `QueryOptions::accept` is asked about.
 struct Contact {
-    std::uint32_t face;  ///< the caller's number
-    std::uint32_t triangle;
-    Sides side;  ///< front or back
-    Feature feature;
-    std::uint8_t feature_index;
-    bool at_start;
-    double fraction;  ///< within 1 ulp, not verified
-    Vec3<double> barycentric;
+    std::uint32_t face;          ///< the caller's number
+    std::uint32_t triangle;      ///< its place in `MeshView::triangles`
+    Sides side;                  ///< front or back
+    Feature feature;             ///< what of it is hit, exactly
+    std::uint8_t feature_index;  ///< as in `Hit`
+    bool at_start;               ///< the exact fraction is 0
+    double fraction;             ///< within 1 ulp, not verified
+    Vec3<double> barycentric;    ///< weights of the corners, within 1 ulp of 1
 };
 
 /// Something that is called with a `Contact` and says whether it counts: a lambda, say, that looks up a texture.
@@ -79,14 +79,18 @@ class Accept {
 
   public:
     Accept() = default;
+    /// Keeps a copy of a callable.
     template <class Callable>
     requires(Kept::keeps<Callable>) Accept(const Callable& callable) : kept_(callable) {}
+    /// Refuses what can't be kept, and says what to do.
     template <class Callable>
     requires(!Kept::keeps<Callable> && std::is_invocable_r_v<bool, Callable&, const Contact&>) Accept(const Callable&) {
         static_assert(Kept::template keeps<Callable>, PIERCE_REFUSED_CALLABLE);
     }
 
+    /// Whether there is one: without one every hit counts.
     explicit operator bool() const { return static_cast<bool>(kept_); }
+    /// Asks it.
     bool operator()(const Contact& contact) const { return kept_(contact); }
 
   private:

@@ -12,8 +12,12 @@
 
 namespace pierce {
 
-/// What a passage does to the winding number: `entering` raises it, `leaving` lowers it, `grazing` leaves it as it was.
-enum class PassageKind : std::uint8_t { entering, leaving, grazing };
+/// What a passage does to the winding number.
+enum class PassageKind : std::uint8_t {
+    entering,  ///< raises it
+    leaving,   ///< lowers it
+    grazing,   ///< leaves it as it was
+};
 
 /// One place where a segment meets the surface.
 ///
@@ -67,14 +71,14 @@ struct Passage {
     /// The sum over its faces: how often the segment passes from the front to the back here, less how often the other
     /// way. Mostly 1 or -1; 0 for a ridge that is touched; 2 where two walls coincide.
     int crossings;
-    PassageKind kind;
+    PassageKind kind;  ///< what `crossings` says: more than 0, less, or 0
     /// The side that the segment comes from to `face`.
     Sides side;
     /// What of `face` the place lies on, exactly, as in `Hit`.
     Feature feature;
-    std::uint8_t feature_index;
-    bool at_start;
-    bool at_end;
+    std::uint8_t feature_index;  ///< as in `Hit`
+    bool at_start;               ///< the exact fraction is 0
+    bool at_end;                 ///< the exact fraction is 1
 };
 
 /// What counts, as in `QueryOptions`, for each face before faces are taken together. With these options left as they

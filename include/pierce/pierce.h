@@ -1,9 +1,9 @@
 // pierce: where does a moving point, or a segment, first pass through a triangle mesh? Exactly, and fast.
 //
-//   auto soup = pierce::read_mesh<double>("level.obj");        // or a MeshView of your own arrays
-//   pierce::CollisionMesh<double> level(soup.view());          // built once; shared by threads
-//   if (auto hit = level.first_hit({from, to}))                 // from, to: Eigen::Vector3d
-//       particle = hit->point;                                  // safe to stand on, safe to step from
+//     auto soup = pierce::read_mesh<double>("level.obj");        // or a MeshView of your own arrays
+//     pierce::CollisionMesh<double> level(soup.view());          // built once; shared by threads
+//     if (auto hit = level.first_hit({from, to}))                 // from, to: Eigen::Vector3d
+//         particle = hit->point;                                  // safe to stand on, safe to step from
 //
 // Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, ray.h, location.h, passage.h,
 // sphere.h, batch.h, collision_mesh.h; response.h for what a particle does after a hit; sweep_hit.h, motion.h,

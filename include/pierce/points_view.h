@@ -45,8 +45,10 @@ class PointsView {
                std::ptrdiff_t stride = 3 * sizeof(float)) requires std::same_as<Scalar, double>
         : first_(reinterpret_cast<const std::byte*>(first)), size_(size), stride_(stride), widens_(true) {}
 
+    /// A vector, an array or a span of points.
     template <detail::SpanOf<Vec3<Scalar>> Range>
     PointsView(const Range& points) : PointsView(first_of(std::span<const Vec3<Scalar>>(points)), std::size(points)) {}
+    /// The same in float, for a view in double.
     template <detail::SpanOf<Vec3<float>> Range>
     requires std::same_as<Scalar, double> PointsView(const Range& points)
         : PointsView(first_of(std::span<const Vec3<float>>(points)), std::size(points)) {}
@@ -60,8 +62,11 @@ class PointsView {
         if (columns.rows() != 3) throw_rows_error(columns.rows());
     }
 
+    /// How many points there are.
     [[nodiscard]] std::size_t size() const { return size_; }
+    /// Whether there are none.
     [[nodiscard]] bool empty() const { return size_ == 0; }
+    /// Bytes from one point to the next.
     [[nodiscard]] std::ptrdiff_t stride() const { return stride_; }
     /// Where the first point is; null where it is a float of a view in double.
     [[nodiscard]] const Scalar* data() const { return widens_ ? nullptr : reinterpret_cast<const Scalar*>(first_); }
@@ -72,6 +77,7 @@ class PointsView {
         some.size_ = count;
         return some;
     }
+    /// A copy of point i, which must be below `size()`.
     [[nodiscard]] Vec3<Scalar> operator[](std::size_t i) const {
         return widens_ ? Vec3<Scalar>(load<float>(i).template cast<Scalar>()) : load<Scalar>(i);
     }

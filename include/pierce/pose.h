@@ -14,8 +14,9 @@ namespace pierce {
 /// takes any matrix as it is.
 template <class Scalar>
 struct Pose {
+    /// orthogonal, of determinant 1, but for what is said above
     Eigen::Matrix<Scalar, 3, 3> rotation = Eigen::Matrix<Scalar, 3, 3>::Identity();
-    Vec3<Scalar> translation = Vec3<Scalar>::Zero();
+    Vec3<Scalar> translation = Vec3<Scalar>::Zero();  ///< in units of the world
 };
 
 }  // namespace pierce

@@ -20,8 +20,9 @@ namespace pierce {
 /// `MeshStatistics::invalid_queries` counts it.
 template <class Scalar>
 struct Ray {
-    Vec3<Scalar> origin;
-    Vec3<Scalar> direction;
+    Vec3<Scalar> origin;     ///< where it begins
+    Vec3<Scalar> direction;  ///< of any length but 0
+    /// the largest t: a length only where `direction` has length 1
     Scalar limit = std::numeric_limits<Scalar>::infinity();
 };
 

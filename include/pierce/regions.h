@@ -23,9 +23,9 @@ namespace pierce {
 /// that coincide.
 template <class Scalar>
 struct Leg {
-    Scalar entry;
-    Scalar exit;
-    std::uint32_t region;
+    Scalar entry;          ///< where it begins
+    Scalar exit;           ///< where it ends; not less than `entry`
+    std::uint32_t region;  ///< that all of it lies in
     /// The region behind the face that the leg ends at, seen along the flight: that of the next leg. The same as
     /// `region` where the flight ends.
     std::uint32_t next;
@@ -40,8 +40,8 @@ struct Leg {
 /// A place for a particle, and the region that it lies in: always that of the point as it is, rounded.
 template <class Scalar>
 struct RegionPlace {
-    Vec3<Scalar> point;
-    std::uint32_t region;
+    Vec3<Scalar> point;    ///< representable, as it is
+    std::uint32_t region;  ///< the region of `point`: `region_at(point)`
     /// Whether that is the region asked for, with nothing else on the way. If not, it is too thin here for any number
     /// that was tried.
     bool reached;
@@ -74,6 +74,7 @@ struct RegionPlace {
 template <class Scalar>
 class PIERCE_EXPORT Regions {
   public:
+    /// Stands for none: give it to no region.
     static constexpr std::uint32_t no_region = std::numeric_limits<std::uint32_t>::max();
 
     /// `labels[f]` is for the caller's face f (`MeshView::faces`). `outside`: the region around the model. Throws
@@ -123,6 +124,7 @@ class PIERCE_EXPORT Regions {
     /// for n triangles, and the square of their number for triangles that coincide.
     [[nodiscard]] LabelReport check() const;
 
+    /// The region around the model, as it was given.
     [[nodiscard]] std::uint32_t outside() const noexcept;
 
   private:

@@ -50,8 +50,8 @@ template <class Scalar>
 /// What a surface does to a particle that runs into it.
 template <class Scalar>
 struct Response {
-    Scalar restitution = 0;
-    Scalar friction = 0;
+    Scalar restitution = 0;  ///< the part of the approach that comes back: 0 to 1
+    Scalar friction = 0;     ///< Coulomb's, 0 and up
     /// That of the surface where it is met: of a conveyor, or of a wall that moves (the mesh itself stands still).
     Vec3<Scalar> velocity = Vec3<Scalar>::Zero();
     /// An approach at this speed or a lower one does not bounce. Where gravity is added once a step, a bounce gets up
@@ -68,8 +68,8 @@ struct MoveContact {
     Scalar speed;                ///< at which it approached the surface along the normal, seen from the surface
     Scalar seconds;              ///< how much of the step was left
     std::uint32_t face;          ///< the caller's number
-    std::uint32_t triangle;
-    Sides side;  ///< of the face: front or back
+    std::uint32_t triangle;      ///< its place in `MeshView::triangles`
+    Sides side;                  ///< of the face: front or back
 };
 
 /// Something that is called with a `MoveContact` and says what the surface does there: a lambda, say, that looks up the
@@ -81,8 +81,10 @@ class ResponseAt {
 
   public:
     ResponseAt() = default;
+    /// Keeps a copy of a callable.
     template <class Callable>
     requires(Kept::template keeps<Callable>) ResponseAt(const Callable& callable) : kept_(callable) {}
+    /// Refuses what can't be kept, and says what to do.
     template <class Callable>
     requires(!Kept::template keeps<Callable> &&
              std::is_invocable_r_v<Response<Scalar>, Callable&, const MoveContact<Scalar>&>)
@@ -90,20 +92,23 @@ class ResponseAt {
         static_assert(Kept::template keeps<Callable>, PIERCE_REFUSED_CALLABLE);
     }
 
+    /// Whether there is one: without one `MoveOptions::response` holds everywhere.
     explicit operator bool() const { return static_cast<bool>(kept_); }
+    /// Asks it.
     Response<Scalar> operator()(const MoveContact<Scalar>& contact) const { return kept_(contact); }
 
   private:
     Kept kept_;
 };
 
+/// What may be chosen for a move.
 template <class Scalar>
 struct MoveOptions {
     /// Which faces stop the particle, and from which side. `max_fraction` means nothing here.
     QueryOptions query = {};
     /// Of all faces, unless `response_at` says more. `move_and_slide` takes no more than the velocity of it.
     Response<Scalar> response = {};
-    ResponseAt<Scalar> response_at = {};
+    ResponseAt<Scalar> response_at = {};  ///< if given, asked at each contact in place of `response`
     /// 0: what moves is a point. More than 0: it is a ball of this radius, whose center goes from `position`.
     Scalar radius = 0;
     /// In a batch the radius of each, if they differ. Single calls don't look at it.
@@ -113,6 +118,7 @@ struct MoveOptions {
     int max_casts = 32;
 };
 
+/// How a move ended.
 enum class MoveState : std::uint8_t {
     free,     ///< met nothing
     slid,     ///< met something, and goes on: along it, or off it
@@ -127,13 +133,13 @@ enum class MoveState : std::uint8_t {
 /// What became of a particle in one step.
 template <class Scalar>
 struct Move {
-    Vec3<Scalar> position;
-    Vec3<Scalar> velocity;     ///< exactly 0 where it rests
-    Vec3<Scalar> travel;       ///< `position` less where it began
-    Vec3<Scalar> remainder;    ///< the way left undone, where the queries were used up; else 0
-    std::size_t contacts = 0;  ///< how many there were, those included for which there was no room
-    int casts = 0;             ///< queries
-    MoveState state = MoveState::free;
+    Vec3<Scalar> position;              ///< where the particle is after the step
+    Vec3<Scalar> velocity;              ///< exactly 0 where it rests
+    Vec3<Scalar> travel;                ///< `position` less where it began
+    Vec3<Scalar> remainder;             ///< the way left undone, where the queries were used up; else 0
+    std::size_t contacts = 0;           ///< how many there were, those included for which there was no room
+    int casts = 0;                      ///< queries
+    MoveState state = MoveState::free;  ///< how it ended
 };
 
 /// Moves a particle by one step of `seconds` at `velocity`, with gravity and the like already in it, sliding without
@@ -176,6 +182,8 @@ template <class Scalar>
     const std::type_identity_t<MoveOptions<Scalar>>& options = {},
     std::type_identity_t<std::span<MoveContact<Scalar>>> contacts = {}) noexcept;
 
+/// The same as `move_and_slide` above, in a step of a mesh that moves.
+///
 /// **Balls.** With `MoveOptions::radius` both calls move a ball, which slides along faces and round edges and corners.
 /// Each of its ways is clear by the exact rule of `SphereHit`: it penetrates nothing at the end or on the way that it
 /// did not in the beginning, and that no deeper. `QueryOptions::sides` says nothing then. All that is said above of
@@ -204,6 +212,7 @@ template <class Scalar>
     const std::type_identity_t<Vec3<Scalar>>& velocity, std::type_identity_t<Scalar> seconds,
     const std::type_identity_t<MoveOptions<Scalar>>& options = {},
     std::type_identity_t<std::span<MoveContact<Scalar>>> contacts = {}) noexcept;
+/// The same with impacts and friction, as `move_and_bounce` on a mesh that stands still.
 template <class Scalar>
 [[nodiscard]] PIERCE_EXPORT Move<Scalar> move_and_bounce(
     const DeformationStep<Scalar>& step, const std::type_identity_t<Vec3<Scalar>>& position,
@@ -233,6 +242,7 @@ PIERCE_EXPORT std::size_t moves_and_slide(
     const std::type_identity_t<PointsView<Scalar>>& velocities, std::type_identity_t<Scalar> seconds,
     std::type_identity_t<std::span<Move<Scalar>>> out, const std::type_identity_t<MoveOptions<Scalar>>& options = {},
     const Executor& executor = {}, std::type_identity_t<std::span<MoveContact<Scalar>>> contacts = {});
+/// Many of `move_and_bounce`, in the same way.
 template <class Scalar>
 PIERCE_EXPORT std::size_t moves_and_bounce(
     const CollisionMesh<Scalar>& mesh, const std::type_identity_t<PointsView<Scalar>>& positions,
@@ -240,12 +250,14 @@ PIERCE_EXPORT std::size_t moves_and_bounce(
     std::type_identity_t<std::span<Move<Scalar>>> out, const std::type_identity_t<MoveOptions<Scalar>>& options = {},
     const Executor& executor = {}, std::type_identity_t<std::span<MoveContact<Scalar>>> contacts = {});
 
+/// Many particles in a step of a mesh that moves, in the same way.
 template <class Scalar>
 PIERCE_EXPORT std::size_t moves_and_slide(
     const DeformationStep<Scalar>& step, const std::type_identity_t<PointsView<Scalar>>& positions,
     const std::type_identity_t<PointsView<Scalar>>& velocities, std::type_identity_t<Scalar> seconds,
     std::type_identity_t<std::span<Move<Scalar>>> out, const std::type_identity_t<MoveOptions<Scalar>>& options = {},
     const Executor& executor = {}, std::type_identity_t<std::span<MoveContact<Scalar>>> contacts = {});
+/// The same with impacts and friction.
 template <class Scalar>
 PIERCE_EXPORT std::size_t moves_and_bounce(
     const DeformationStep<Scalar>& step, const std::type_identity_t<PointsView<Scalar>>& positions,

@@ -28,11 +28,13 @@ struct RigidHit {
     Coordinates<Scalar> place;
     /// The same in the mesh's own coordinates; verified in any case, as a place to ride on.
     Coordinates<Scalar> local;
-    /// The contact in the mesh's coordinates, each correctly rounded, and in the world at that time; not verified.
+    /// The contact in the mesh's coordinates, each correctly rounded; not verified.
     Coordinates<Scalar> local_position;
+    /// The same in the world at that time, rounded.
     Coordinates<Scalar> position;
-    /// Unit normal of the face, pointing to its front: in the mesh, and in the world at that time.
+    /// Unit normal of the face in the mesh, pointing to its front.
     Coordinates<Scalar> local_normal;
+    /// The same in the world at that time.
     Coordinates<Scalar> normal;
     /// Weights of the corners a, b, c in the contact, in [0, 1].
     Coordinates<Scalar> barycentric;
@@ -44,7 +46,7 @@ struct RigidHit {
     Feature feature;             ///< what the contact lies on, exactly
     std::uint8_t feature_index;  ///< as in `Hit`
     bool at_start;               ///< the way begins on the face
-    bool place_verified;
+    bool place_verified;         ///< whether `place` is certified, as said there
 
     /// The unit normal in the world on the side that the point came from.
     [[nodiscard]] Vec3<Scalar> facing() const { return side == Sides::back ? -normal : normal.vec(); }

@@ -7,14 +7,20 @@
 namespace pierce {
 
 /// Which side of a triangle a segment may come from. A query takes any of the three; a hit is `front` or `back`.
-///
-/// `front`: from in front of the plane or on it, to strictly behind. `back` is the same mirrored: from behind or on the
-/// plane, to strictly in front. `both` is a change of side, where on the plane counts as in front: as `front`, or from
-/// strictly behind to in front or onto the plane. So a point on the plane can leave it to the front, and a chain of
-/// steps passes unseen in neither direction.
-enum class Sides : std::uint8_t { front, back, both };
+enum class Sides : std::uint8_t {
+    front,  ///< from in front of the plane or on it, to strictly behind
+    back,   ///< the same mirrored: from behind or on the plane, to strictly in front
+    /// A change of side, where on the plane counts as in front: as `front`, or from strictly behind to in front or onto
+    /// the plane. So a point on the plane can leave it to the front, and a chain of steps passes unseen in neither
+    /// direction.
+    both,
+};
 
-/// What a hit lies on, decided exactly: the open face, an open edge, or a corner.
-enum class Feature : std::uint8_t { face, edge, vertex };
+/// What a hit lies on, decided exactly.
+enum class Feature : std::uint8_t {
+    face,    ///< the open face
+    edge,    ///< an open edge: without its ends
+    vertex,  ///< a corner
+};
 
 }  // namespace pierce

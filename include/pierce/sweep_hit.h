@@ -47,7 +47,7 @@ struct SweepHit {
     Feature feature;             ///< what the contact lies on, exactly; never a face where the triangle has no area
     std::uint8_t feature_index;  ///< as in `Hit`
     bool at_start;               ///< the exact time is 0
-    bool place_verified;
+    bool place_verified;         ///< whether `place` is certified, as said there
 
     /// The unit normal on the side that the point came from.
     [[nodiscard]] Vec3<Scalar> facing() const { return side == Sides::back ? -normal : normal.vec(); }

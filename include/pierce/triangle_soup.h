@@ -17,21 +17,24 @@ inline constexpr std::uint32_t k_no_name = 0xFFFF'FFFF;
 /// Positions and index triples with no connectivity: what a file holds, whatever its topology.
 template <class Scalar>
 struct TriangleSoup {
-    std::vector<Vec3<Scalar>> positions;
-    std::vector<IndexTriple> triangles;
+    std::vector<Vec3<Scalar>> positions;  ///< in the units of the file
+    std::vector<IndexTriple> triangles;   ///< corners as places in `positions`
     /// For each triangle the face of the file that it was cut from, counted from 0 in the order of the file. Empty when
     /// every face of the file is a triangle: then both numbers are the same.
     std::vector<std::uint32_t> faces = {};
 
-    /// Names of materials and of groups, each once, in the order in which the file first says them; those that no face
-    /// has are listed as well.
+    /// Names of materials, each once, in the order in which the file first says them; those that no face has are listed
+    /// as well.
     std::vector<std::string> materials = {};
+    /// Names of groups, in the same way.
     std::vector<std::string> groups = {};
-    /// For each face of the file the place of its name in `materials` and `groups`, or `k_no_name`: what a hit hits is
+    /// For each face of the file the place of its name in `materials`, or `k_no_name`: what a hit hits is
     /// `materials[material_of_face[hit.face]]`. Empty, or `face_count()` long; triangle i belongs to face `faces[i]`.
     std::vector<std::uint32_t> material_of_face = {};
+    /// The same for `groups`.
     std::vector<std::uint32_t> group_of_face = {};
 
+    /// The mesh to build from; valid while the soup is not changed.
     [[nodiscard]] MeshView<Scalar> view() const { return {positions, triangles, faces}; }
     /// How many faces the file had; with polygons in it, fewer than it has triangles.
     [[nodiscard]] std::size_t face_count() const {

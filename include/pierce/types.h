@@ -19,8 +19,8 @@ using Vec3 = Eigen::Matrix<Scalar, 3, 1>;
 /// The ends are taken as the exact numbers that they are; no direction is normalised and no length is computed.
 template <class Scalar>
 struct Segment {
-    Vec3<Scalar> from;
-    Vec3<Scalar> to;
+    Vec3<Scalar> from;  ///< where the way begins, in the units of the mesh
+    Vec3<Scalar> to;    ///< where it ends
 };
 
 template <class Scalar>
@@ -29,6 +29,7 @@ Segment(Vec3<Scalar>, Vec3<Scalar>) -> Segment<Scalar>;
 /// The three corners of a triangle as indices of positions, counter-clockwise seen from its front.
 using IndexTriple = std::array<std::uint32_t, 3>;
 
+/// Whether pierce works in this type: float and double.
 template <class Scalar>
 inline constexpr bool is_scalar_v = std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>;
 

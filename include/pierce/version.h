@@ -1,8 +1,11 @@
 // The version of these headers, in C and C++. CMakeLists.txt reads it here, so that there is only one.
 #pragma once
 
+/// A new one may break programs.
 #define PIERCE_VERSION_MAJOR 0
-#define PIERCE_VERSION_MINOR 1
+/// A new one adds; before 1.0 it may break programs too.
+#define PIERCE_VERSION_MINOR 2
+/// A new one mends.
 #define PIERCE_VERSION_PATCH 0
 
 /// One number to compare with: 1.2.3 is 10203.

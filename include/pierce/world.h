@@ -25,7 +25,7 @@ namespace pierce {
 /// What a mesh is given when it is added.
 template <class Scalar>
 struct InstanceOptions {
-    Pose<Scalar> pose = {};
+    Pose<Scalar> pose = {};  ///< where it stands
     /// Bits that a query's mask is compared with (`WorldOptions::mask`).
     std::uint32_t layers = 0xffffffff;
     /// Bits of each face, by the caller's number; a face beyond its end has none. Null: those of all faces are set.
@@ -33,6 +33,7 @@ struct InstanceOptions {
     std::shared_ptr<const std::vector<std::uint32_t>> face_layers = {};
 };
 
+/// What a world holds.
 struct WorldStatistics {
     std::size_t meshes = 0;             ///< in it, each as often as it was added
     std::size_t triangles = 0;          ///< of all of them
@@ -113,6 +114,7 @@ class PIERCE_EXPORT World {
     static_assert(is_scalar_v<Scalar>, "pierce works in float or double");
 
   public:
+    /// A mesh as worlds share it.
     using Mesh = std::shared_ptr<const CollisionMesh<Scalar>>;
 
     /// Without a mesh: nothing is hit.
@@ -130,22 +132,31 @@ class PIERCE_EXPORT World {
     /// Whether there was such a mesh. From then on its id is stale for ever: a place that was used 2^32 - 1 times is
     /// not used again.
     bool remove(MeshId id) noexcept;
-    /// These throw std::invalid_argument where the id is stale, or what is given is refused by `add`; then nothing has
-    /// changed. Pose and layers stay when a mesh is replaced.
+    /// Another mesh in the same place: pose and layers stay. Throws std::invalid_argument, as the next three do, where
+    /// the id is stale, or what is given is refused by `add`; then nothing has changed.
     void replace(MeshId id, Mesh mesh);
+    /// Moves and turns it.
     void set_pose(MeshId id, const Pose<Scalar>& pose);
+    /// The bits of the mesh (`InstanceOptions::layers`).
     void set_layers(MeshId id, std::uint32_t layers);
+    /// The bits of its faces; null sets those of all.
     void set_face_layers(MeshId id, std::shared_ptr<const std::vector<std::uint32_t>> face_layers);
 
-    /// The same without exceptions. Where nothing was done `value` is `MeshId{}`, and `message` says why.
+    /// `add` without exceptions. Where nothing was done `value` is `MeshId{}`, and `message` says why.
     [[nodiscard]] Result<MeshId> try_add(Mesh mesh, const InstanceOptions<Scalar>& options = {}) noexcept;
+    /// As `try_add`, of `replace`.
     [[nodiscard]] Result<MeshId> try_replace(MeshId id, Mesh mesh) noexcept;
+    /// As `try_add`, of `set_pose`.
     [[nodiscard]] Result<MeshId> try_set_pose(MeshId id, const Pose<Scalar>& pose) noexcept;
+    /// As `try_add`, of `set_layers`.
     [[nodiscard]] Result<MeshId> try_set_layers(MeshId id, std::uint32_t layers) noexcept;
+    /// As `try_add`, of `set_face_layers`.
     [[nodiscard]] Result<MeshId> try_set_face_layers(
         MeshId id, std::shared_ptr<const std::vector<std::uint32_t>> face_layers) noexcept;
 
+    /// Whether the id is not stale.
     [[nodiscard]] bool holds(MeshId id) const noexcept;
+    /// How many meshes there are, each as often as it was added.
     [[nodiscard]] std::size_t size() const noexcept;
     /// Null where the id is stale.
     [[nodiscard]] Mesh mesh(MeshId id) const noexcept;
@@ -154,9 +165,10 @@ class PIERCE_EXPORT World {
     /// Where a point of a mesh is, rounded; NaN where the id is stale.
     [[nodiscard]] Vec3<Scalar> to_world(MeshId id, const Vec3<Scalar>& point) const noexcept;
 
-    /// As in `CollisionMesh`. `Way`: a `Segment` or a `Ray`.
+    /// As in `CollisionMesh`, here and below. `Way`: a `Segment` or a `Ray`.
     [[nodiscard]] std::optional<WorldHit<Scalar>> first_hit(const Segment<Scalar>& segment,
                                                             const WorldOptions& options = {}) const noexcept;
+    /// Whether anything is hit.
     [[nodiscard]] bool any_hit(const Segment<Scalar>& segment, const WorldOptions& options = {}) const noexcept;
     /// In order of (fraction, mesh, face, triangle).
     std::size_t all_hits(const Segment<Scalar>& segment, std::span<WorldHit<Scalar>> out,
@@ -165,20 +177,24 @@ class PIERCE_EXPORT World {
     /// numbers at the ends.
     [[nodiscard]] int crossings(const Segment<Scalar>& segment, const WorldCountOptions& options = {}) const noexcept;
 
+    /// The same of a ray.
     template <std::same_as<Ray<Scalar>> Way>
     [[nodiscard]] std::optional<WorldHit<Scalar>> first_hit(const Way& ray,
                                                             const WorldOptions& options = {}) const noexcept {
         return first_hit_of_ray(ray, options);
     }
+    /// Whether the ray hits anything.
     template <std::same_as<Ray<Scalar>> Way>
     [[nodiscard]] bool any_hit(const Way& ray, const WorldOptions& options = {}) const noexcept {
         return any_hit_of_ray(ray, options);
     }
+    /// In order of (t, mesh, face, triangle).
     template <std::same_as<Ray<Scalar>> Way>
     std::size_t all_hits(const Way& ray, std::span<WorldHit<Scalar>> out,
                          const WorldOptions& options = {}) const noexcept {
         return all_hits_of_ray(ray, out, options);
     }
+    /// The sum over all meshes.
     template <std::same_as<Ray<Scalar>> Way>
     [[nodiscard]] int crossings(const Way& ray, const WorldCountOptions& options = {}) const noexcept {
         return crossings_of_ray(ray, options);
@@ -221,6 +237,7 @@ class PIERCE_EXPORT World {
     /// Contacts of each mesh by itself: an edge that two meshes share is one of each.
     std::size_t sphere_hits(const Segment<Scalar>& step, Scalar radius, std::span<WorldSphereHit<Scalar>> out,
                             const WorldOptions& options = {}) const noexcept;
+    /// As in `CollisionMesh`, of each mesh by itself.
     std::size_t sphere_contacts(const Vec3<Scalar>& center, Scalar radius, std::span<WorldSphereHit<Scalar>> out,
                                 const WorldOptions& options = {}) const noexcept;
 
@@ -234,44 +251,54 @@ class PIERCE_EXPORT World {
     /// the number of hits, or of points contained.
     std::size_t first_hits(const Segments<Scalar>& segments, const WorldHitsOut<Scalar>& out,
                            const WorldOptions& options = {}, const Executor& executor = {}) const;
+    /// An answer is 1 or 0.
     std::size_t any_hits(const Segments<Scalar>& segments, std::span<std::uint8_t> out,
                          const WorldOptions& options = {}, const Executor& executor = {}) const;
+    /// `out[i]` is what `crossings` says.
     void crossings(const Segments<Scalar>& segments, std::span<int> out, const WorldCountOptions& options = {},
                    const Executor& executor = {}) const;
+    /// The same as `first_hits`.
     std::size_t sweeps(const Segments<Scalar>& steps, const WorldHitsOut<Scalar>& out, const WorldOptions& options = {},
                        const Executor& executor = {}) const;
     /// Compressed rows, as `CollisionMesh::all_hits`.
     std::size_t all_hits(const Segments<Scalar>& segments, std::span<std::size_t> offsets,
                          std::span<WorldHit<Scalar>> hits, const WorldOptions& options = {},
                          const Executor& executor = {}) const;
+    /// Many of `sweep_sphere`, all of one radius or each of its own.
     std::size_t sweep_spheres(const Segments<Scalar>& steps, Scalar radius,
                               std::span<std::optional<WorldSphereHit<Scalar>>> out, const WorldOptions& options = {},
                               const Executor& executor = {}) const;
     std::size_t sweep_spheres(const Segments<Scalar>& steps, std::span<const Scalar> radii,
                               std::span<std::optional<WorldSphereHit<Scalar>>> out, const WorldOptions& options = {},
                               const Executor& executor = {}) const;
+    /// Compressed rows, of rays.
     template <detail::RaysOf<Scalar> Batch>
     std::size_t all_hits(const Batch& rays, std::span<std::size_t> offsets, std::span<WorldHit<Scalar>> hits,
                          const WorldOptions& options = {}, const Executor& executor = {}) const {
         return all_hits_of_rays(rays, offsets, hits, options, executor);
     }
+    /// Of rays, as of segments.
     template <detail::RaysOf<Scalar> Batch>
     std::size_t first_hits(const Batch& rays, const WorldHitsOut<Scalar>& out, const WorldOptions& options = {},
                            const Executor& executor = {}) const {
         return first_hits_of_rays(rays, out, options, executor);
     }
+    /// An answer is 1 or 0.
     template <detail::RaysOf<Scalar> Batch>
     std::size_t any_hits(const Batch& rays, std::span<std::uint8_t> out, const WorldOptions& options = {},
                          const Executor& executor = {}) const {
         return any_hits_of_rays(rays, out, options, executor);
     }
+    /// `out[i]` is what `crossings` says.
     template <detail::RaysOf<Scalar> Batch>
     void crossings(const Batch& rays, std::span<int> out, const WorldCountOptions& options = {},
                    const Executor& executor = {}) const {
         crossings_of_rays(rays, out, options, executor);
     }
+    /// `out[i]` is the winding number at point i.
     void winding_numbers(const PointsView<Scalar>& points, std::span<int> out, const WorldCountOptions& options = {},
                          const Executor& executor = {}) const;
+    /// An answer is 1 or 0.
     std::size_t contains_points(const PointsView<Scalar>& points, std::span<std::uint8_t> out,
                                 const WorldCountOptions& options = {}, const Executor& executor = {}) const;
 
@@ -279,6 +306,7 @@ class PIERCE_EXPORT World {
     std::size_t locate_points(const PointsView<Scalar>& points, std::span<Location> out,
                               const WorldCountOptions& options = {}, const Executor& executor = {}) const;
 
+    /// What it holds, counted anew, in linear time.
     [[nodiscard]] WorldStatistics statistics() const noexcept;
 
   private:

@@ -13,8 +13,8 @@ namespace pierce {
 
 /// A triangle that a point lies on, and its mesh.
 struct WorldTouch {
-    FaceTouch touch;
-    MeshId mesh;
+    FaceTouch touch;  ///< the triangle, in the numbers of the mesh
+    MeshId mesh;      ///< which one
 };
 
 /// A passage through the surface of one mesh. Numbers, `feature`, `side` and `crossings` are those of the mesh, and
@@ -22,33 +22,33 @@ struct WorldTouch {
 /// `position` is the end.
 template <class Scalar>
 struct WorldPassage {
-    Passage<Scalar> passage;
-    MeshId mesh;
+    Passage<Scalar> passage;  ///< in the world where said above
+    MeshId mesh;              ///< which one
 };
 
 /// As `PassageOptions`, for a world.
 struct WorldPassageOptions {
-    Sides sides = Sides::both;
-    double max_fraction = 1.0;
+    Sides sides = Sides::both;  ///< as in `PassageOptions`
+    double max_fraction = 1.0;  ///< as in `PassageOptions`
     /// As in `WorldOptions`.
     std::uint32_t mask = 0xffffffff;
-    WorldAccept accept = {};
-    QueryCounters* counters = nullptr;
-    bool count_all = true;
+    WorldAccept accept = {};            ///< as in `WorldOptions`
+    QueryCounters* counters = nullptr;  ///< as in `WorldOptions`
+    bool count_all = true;              ///< as in `PassageOptions`
 };
 
 /// Where a ball first runs into a mesh of a world. `hit.face`, `triangle`, `side` and `feature` are those of the mesh,
 /// `center`, `contact` and `normal` are in the world.
 template <class Scalar>
 struct WorldSphereHit {
-    SphereHit<Scalar> hit;
-    MeshId mesh;
+    SphereHit<Scalar> hit;  ///< in the world where said above
+    MeshId mesh;            ///< which one
 };
 
 /// Why a face is, or is not, what a segment hits first in a world.
 struct WorldFaceVerdict {
-    FaceVerdict verdict;
-    MeshId mesh;
+    FaceVerdict verdict;  ///< in the numbers of the mesh
+    MeshId mesh;          ///< which one
 };
 
 }  // namespace pierce

@@ -20,8 +20,8 @@ namespace pierce {
 /// kept too long is known to be stale. Places are given away lowest first where none was used before, else the one that
 /// became free last.
 struct MeshId {
-    std::uint32_t index = 0xffffffff;
-    std::uint32_t generation = 0;  ///< of one that was given away: at least 1
+    std::uint32_t index = 0xffffffff;  ///< its place; what no mesh has stands for none
+    std::uint32_t generation = 0;      ///< of one that was given away: at least 1
 
     friend constexpr bool operator==(const MeshId&, const MeshId&) = default;
 };
@@ -32,8 +32,8 @@ struct MeshId {
 /// are in the world. `fraction` and `exact_fraction` are as in `Hit`, of the local image of the way (`World`).
 template <class Scalar>
 struct WorldHit {
-    Hit<Scalar> hit;
-    MeshId mesh;
+    Hit<Scalar> hit;  ///< of that mesh, in the world where said above
+    MeshId mesh;      ///< which one
 
     /// False for `no_world_hit`, with which batches fill the places of queries without a hit.
     [[nodiscard]] explicit operator bool() const { return static_cast<bool>(hit); }
@@ -51,6 +51,7 @@ static_assert(has_documented_world_layout<float>() && has_documented_world_layou
 
 }  // namespace detail
 
+/// What an array of hits has where a query has none: `no_hit`, and no mesh.
 template <class Scalar>
 inline constexpr WorldHit<Scalar> no_world_hit = {no_hit<Scalar>, {}};
 
@@ -61,15 +62,19 @@ class WorldAccept {
 
   public:
     WorldAccept() = default;
+    /// Keeps a copy of a callable.
     template <class Callable>
     requires(Kept::keeps<Callable>) WorldAccept(const Callable& callable) : kept_(callable) {}
+    /// Refuses what can't be kept, and says what to do.
     template <class Callable>
     requires(!Kept::keeps<Callable> && std::is_invocable_r_v<bool, Callable&, MeshId, const Contact&>)
         WorldAccept(const Callable&) {
         static_assert(Kept::template keeps<Callable>, PIERCE_REFUSED_CALLABLE);
     }
 
+    /// Whether there is one: without one every hit counts.
     explicit operator bool() const { return static_cast<bool>(kept_); }
+    /// Asks it.
     bool operator()(MeshId mesh, const Contact& contact) const { return kept_(mesh, contact); }
 
   private:
@@ -78,25 +83,25 @@ class WorldAccept {
 
 /// As `QueryOptions`. What an option leaves out hides nothing behind it.
 struct WorldOptions {
-    Sides sides = Sides::front;
-    double max_fraction = std::numeric_limits<double>::infinity();
+    Sides sides = Sides::front;                                     ///< as in `QueryOptions`
+    double max_fraction = std::numeric_limits<double>::infinity();  ///< as in `QueryOptions`
     /// Only meshes count whose layers have a bit of it, and of a mesh with face layers only faces that have one too.
     std::uint32_t mask = 0xffffffff;
-    WorldAccept accept = {};
-    QueryCounters* counters = nullptr;
+    WorldAccept accept = {};            ///< if given, only hits count that it says yes to
+    QueryCounters* counters = nullptr;  ///< adds up what was gone through, if given
 };
 
 /// For queries that count crossings: whole meshes are in or out, as a surface with holes has no inside.
 struct WorldCountOptions {
-    std::uint32_t mask = 0xffffffff;
-    QueryCounters* counters = nullptr;
+    std::uint32_t mask = 0xffffffff;    ///< as in `WorldOptions`
+    QueryCounters* counters = nullptr;  ///< as in `WorldOptions`
 };
 
 /// Hits as one array for each of their members, as in `HitArrays`, and their meshes; for a miss that is `MeshId{}`.
 template <class Scalar>
 struct WorldHitArrays {
-    HitArrays<Scalar> hits;
-    MeshId* mesh = nullptr;
+    HitArrays<Scalar> hits;  ///< the arrays of all but the meshes
+    MeshId* mesh = nullptr;  ///< the mesh of each hit
 };
 
 /// Where a batch writes its hits. A miss is `no_world_hit` in plain memory.

@@ -39,23 +39,25 @@ template <class Number>
     constexpr std::array<std::uint8_t, 8> cyclic = {0, 1, 2, 0, 1, 2, 0, 1};
     return {p[cyclic[column]], p[cyclic[column + 1U]], p[cyclic[column + 2U]]};
 }
+/// x times the sign s of the column.
 template <class Number>
 [[nodiscard]] constexpr Number with_sign_of(std::uint8_t column, const Number& x) {
     return column < 3 ? x : -x;
 }
 
+/// The coordinates (k, i, j) of p, for numbers with lanes.
 template <class Number>
-    requires(!std::is_arithmetic_v<Number>)
-[[nodiscard]] Triple<Number> from_column(const Number& column, const Triple<Number>& p) {
+requires(!std::is_arithmetic_v<Number>)
+    [[nodiscard]] Triple<Number> from_column(const Number& column, const Triple<Number>& p) {
     const auto is = [&](int k) { return (column == Number(k)) | (column == Number(k + 3)); };
     const auto pick = [&](std::size_t x, std::size_t y, std::size_t z) {
         return select(is(0), p[x], select(is(1), p[y], p[z]));
     };
     return {pick(0, 1, 2), pick(1, 2, 0), pick(2, 0, 1)};
 }
+/// x times the sign s of the column, for numbers with lanes.
 template <class Number>
-    requires(!std::is_arithmetic_v<Number>)
-[[nodiscard]] Number with_sign_of(const Number& column, const Number& x) {
+requires(!std::is_arithmetic_v<Number>) [[nodiscard]] Number with_sign_of(const Number& column, const Number& x) {
     return select(column < Number(3), x, -x);
 }
 
@@ -63,15 +65,17 @@ template <class Number>
 /// of zero gives zeros, which nothing hits. Neighbours that share an edge compute it from different rows: a segment
 /// aimed at the edge can pass between them, and can hit both.
 struct BaldwinWeber12 {
-    Sides sides = Sides::front;
+    Sides sides = Sides::front;  ///< the side that a segment must come from
 
+    /// The three rows of the map.
     template <class Number>
     struct Stored {
-        Plane<Number> u;
-        Plane<Number> v;
-        Plane<Number> height;
+        Plane<Number> u;       ///< weight of b
+        Plane<Number> v;       ///< weight of c
+        Plane<Number> height;  ///< above the plane, positive in front
     };
 
+    /// The stored form of a triangle.
     template <class Scalar>
     [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& corner_a, const PointOf<Scalar>& corner_b,
                                          const PointOf<Scalar>& corner_c) const {
@@ -97,6 +101,7 @@ struct BaldwinWeber12 {
         return {plane(u, a), plane(v, a), plane(height, a)};
     }
 
+    /// The test in any type of number: for one segment, or for several in step.
     template <class Number>
     [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from,
                                           const Triple<Number>& to) const {
@@ -112,6 +117,7 @@ struct BaldwinWeber12 {
         return divided(hit, f, u, v, d);
     }
 
+    /// Whether and where the segment from -> to hits the triangle.
     template <class Scalar>
     [[nodiscard]] std::optional<Answer<Scalar>> test(const Stored<Scalar>& stored, const PointOf<Scalar>& from,
                                                      const PointOf<Scalar>& to) const {
@@ -123,27 +129,30 @@ static_assert(sizeof(BaldwinWeber12::Stored<float>) == 12 * sizeof(float));
 
 /// Nine numbers and the column: the same map without what is known of it. The rest as for `BaldwinWeber12`.
 struct BaldwinWeber9 {
-    Sides sides = Sides::front;
+    Sides sides = Sides::front;  ///< the side that a segment must come from
 
     /// A row without its entry in column k: `at_i p_i + at_j p_j + offset`.
     template <class Number>
     struct Row {
-        Number at_i;
-        Number at_j;
-        Number offset;
+        Number at_i;    ///< coefficient along axis i
+        Number at_j;    ///< coefficient along axis j
+        Number offset;  ///< the value at the origin
 
+        /// The value at a point whose coordinates are in the order (k, i, j).
         [[nodiscard]] constexpr Number operator()(const Triple<Number>& kij) const {
             return at_i * kij[1] + at_j * kij[2] + offset;
         }
     };
+    /// The three rows, each without one entry, and which.
     template <class Number>
     struct Stored {
-        Row<Number> u;
-        Row<Number> v;
-        Row<Number> height;  ///< times s, so that its entry in column k is 1
-        Column<Number> column{};
+        Row<Number> u;            ///< weight of b
+        Row<Number> v;            ///< weight of c
+        Row<Number> height;       ///< times s, so that its entry in column k is 1
+        Column<Number> column{};  ///< the axis k and the sign s
     };
 
+    /// The stored form of a triangle.
     template <class Scalar>
     [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
                                          const PointOf<Scalar>& c) const {
@@ -161,6 +170,7 @@ struct BaldwinWeber9 {
                 static_cast<std::uint8_t>(sign > 0 ? k : k + 3)};
     }
 
+    /// The test in any type of number: for one segment, or for several in step.
     template <class Number>
     [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from,
                                           const Triple<Number>& to) const {
@@ -179,6 +189,7 @@ struct BaldwinWeber9 {
         return divided(hit, f, u, v, d);
     }
 
+    /// Whether and where the segment from -> to hits the triangle.
     template <class Scalar>
     [[nodiscard]] std::optional<Answer<Scalar>> test(const Stored<Scalar>& stored, const PointOf<Scalar>& from,
                                                      const PointOf<Scalar>& to) const {
@@ -198,7 +209,9 @@ struct BaldwinWeber9 {
 // The column is one byte, and three to align it.
 static_assert(sizeof(BaldwinWeber9::Stored<float>) == 10 * sizeof(float));
 
+/// `BaldwinWeber12` with its defaults.
 inline constexpr BaldwinWeber12 baldwin_weber_12{};
+/// `BaldwinWeber9` with its defaults.
 inline constexpr BaldwinWeber9 baldwin_weber_9{};
 
 }  // namespace pierce::kernels

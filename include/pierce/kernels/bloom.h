@@ -19,7 +19,10 @@
 
 namespace pierce::kernels {
 
+/// Planes of the triangle and of two weights. Neighbours that share an edge compute it from different planes: a segment
+/// aimed at the edge can pass between them.
 struct Bloom {
+    /// Twelve numbers: the three planes.
     template <class Number>
     struct Stored {
         Plane<Number> height;    ///< positive in front; the normal's largest component is 1 or -1
@@ -47,6 +50,7 @@ struct Bloom {
         return {plane(n, a), barycentric(a, b, c), barycentric(b, c, a)};
     }
 
+    /// The test in any type of number: for one segment, or for several in step.
     template <class Number>
     [[nodiscard]] Tested<Number> evaluate(const Stored<Number>& t, const Triple<Number>& from,
                                           const Triple<Number>& to) const {
@@ -66,6 +70,7 @@ struct Bloom {
         return divided(hit, f, b, c, d);
     }
 
+    /// Whether and where the segment from -> to hits the triangle.
     template <class Scalar>
     [[nodiscard]] std::optional<Answer<Scalar>> test(const Stored<Scalar>& stored, const PointOf<Scalar>& from,
                                                      const PointOf<Scalar>& to) const {
@@ -75,6 +80,7 @@ struct Bloom {
 
 static_assert(sizeof(Bloom::Stored<float>) == 12 * sizeof(float));
 
+/// `Bloom` with its defaults.
 inline constexpr Bloom bloom{};
 
 }  // namespace pierce::kernels

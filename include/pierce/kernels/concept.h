@@ -15,8 +15,8 @@ namespace pierce::kernels {
 template <class Scalar>
 struct Answer {
     Scalar fraction;  ///< in [0, 1]
-    Scalar u;
-    Scalar v;
+    Scalar u;         ///< weight of b
+    Scalar v;         ///< weight of c
 };
 
 /// A kernel is a small value. `prepare(a, b, c)` gives the stored form of the triangle, counter-clockwise seen from its

@@ -18,17 +18,20 @@ namespace pierce::kernels {
 /// Of either side, by `sides`. Errs as `MollerTrumbore` does, but two equal corners give a determinant of exactly 0,
 /// and are never hit.
 struct Cramer {
-    Sides sides = Sides::front;
+    Sides sides = Sides::front;  ///< the side that a segment must come from
 
+    /// What is stored: the corners.
     template <class Number>
     using Stored = Vertices<Number>;
 
+    /// The stored form of a triangle.
     template <class Scalar>
     [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
                                            const PointOf<Scalar>& c) const {
         return {triple<Scalar>(a), triple<Scalar>(b), triple<Scalar>(c)};
     }
 
+    /// The test in any type of number: for one segment, or for several in step.
     template <class Number>
     [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& triangle, const Triple<Number>& from,
                                           const Triple<Number>& to) const {
@@ -53,6 +56,7 @@ struct Cramer {
         return divided(hit, t, u, v, whole);
     }
 
+    /// Whether and where the segment from -> to hits the triangle.
     template <class Scalar>
     [[nodiscard]] std::optional<Answer<Scalar>> test(const Vertices<Scalar>& stored, const PointOf<Scalar>& from,
                                                      const PointOf<Scalar>& to) const {
@@ -68,6 +72,7 @@ struct Cramer {
     }
 };
 
+/// `Cramer` with its defaults.
 inline constexpr Cramer cramer{};
 
 }  // namespace pierce::kernels

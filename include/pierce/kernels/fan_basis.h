@@ -28,22 +28,23 @@ inline constexpr int k_fan_range = std::numeric_limits<Scalar>::max_exponent * 5
 /// The affine map to the first triangle's basis.
 template <class Number>
 struct FanFirst {
-    Plane<Number> u;
-    Plane<Number> u_plus_v;
-    Plane<Number> height;
+    Plane<Number> u;         ///< weight of the first ring vertex
+    Plane<Number> u_plus_v;  ///< both weights together
+    Plane<Number> height;    ///< along N
 };
 
 /// From the basis of one triangle to that of the next. The first `a` of a fan is lowered by one, and in the last `a`
 /// and `d` are a + b and d + e, see triangle_fan.h.
 template <class Number>
 struct FanTurn {
+    /// The coefficients of the change of basis, as at the head of this file.
     Number a, b, c, d, e, f;
 };
 
 static_assert(sizeof(FanFirst<float>) == 12 * sizeof(float) && sizeof(FanTurn<float>) == 6 * sizeof(float));
 
-/// Two edges at the apex times the power of two that brings their largest component into 1 .. 2, and n = ab x ac there,
-/// so that n.n has no fourth power of a length. N is n in the world's units, n / scale.
+/// Two edges at the apex times the power of two that brings their largest component between 1 and 2, and n = ab x ac
+/// there, so that n.n has no fourth power of a length. N is n in the world's units, n / scale.
 ///
 /// With R for `k_fan_range`, which allows the exponents -R - 1 .. R: edges are at most 2 sqrt(3) < 2^1.8 long, n 2^3.6,
 /// and at least 2^-R. The edges and N of one basis are at most 2^(2 R + 1) times as large in the units of the next. So
@@ -51,13 +52,14 @@ static_assert(sizeof(FanFirst<float>) == 12 * sizeof(float) && sizeof(FanTurn<fl
 /// their numerators less; rows are at most 2^(R + 1) 2^1.8 / 2^-R.
 template <class Scalar>
 struct FanBasis {
-    Triple<Scalar> ab;
-    Triple<Scalar> ac;
-    Triple<Scalar> n;
-    Scalar square;
-    Scalar scale;
+    Triple<Scalar> ab;  ///< the first edge, scaled
+    Triple<Scalar> ac;  ///< the second edge, scaled
+    Triple<Scalar> n;   ///< their cross product
+    Scalar square;      ///< n.n
+    Scalar scale;       ///< the power of two
 };
 
+/// The basis of a triangle, if it is in the range of `k_fan_range`.
 template <class Scalar>
 [[nodiscard]] std::optional<FanBasis<Scalar>> fan_basis(const Triple<Scalar>& ab, const Triple<Scalar>& ac) {
     const Scalar size = std::max(std::abs(ab[largest(ab)]), std::abs(ac[largest(ac)]));
@@ -71,7 +73,8 @@ template <class Scalar>
     return basis;
 }
 
-// Rows of the inverse of (AB, AC, N): the cross products of the other two columns, over [AB AC N] = n.n / scale^3.
+/// The map to the first basis. Rows of the inverse of (AB, AC, N): the cross products of the other two columns, over
+/// [AB AC N] = n.n / scale^3.
 template <class Scalar>
 [[nodiscard]] FanFirst<Scalar> fan_first(const FanBasis<Scalar>& b, const Triple<Scalar>& a) {
     const Scalar inverse = 1 / b.square;
@@ -80,6 +83,7 @@ template <class Scalar>
     return {row(cross(b.ac, b.n)), row(cross(b.n, b.ab - b.ac)), row(b.n)};
 }
 
+/// From one basis to the next.
 template <class Scalar>
 [[nodiscard]] FanTurn<Scalar> fan_turn(const FanBasis<Scalar>& before, const FanBasis<Scalar>& basis, bool last) {
     const Scalar units = basis.scale / before.scale;

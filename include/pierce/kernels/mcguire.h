@@ -23,15 +23,18 @@ struct McGuire {
     double epsilon = 1e-7;  ///< in squared units of length
     double tolerance = 0;   ///< weights down to minus this count as inside: a triangle grows by this part of its height
 
+    /// What is stored: the corners.
     template <class Number>
     using Stored = Vertices<Number>;
 
+    /// The stored form of a triangle.
     template <class Scalar>
     [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
                                            const PointOf<Scalar>& c) const {
         return {triple<Scalar>(a), triple<Scalar>(b), triple<Scalar>(c)};
     }
 
+    /// The test in any type of number: for one segment, or for several in step.
     template <class Number>
     [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& t, const Triple<Number>& from,
                                           const Triple<Number>& to) const {
@@ -62,6 +65,7 @@ struct McGuire {
         return {hit, distance / length, u, v};
     }
 
+    /// Whether and where the segment from -> to hits the triangle.
     template <class Scalar>
     [[nodiscard]] std::optional<Answer<Scalar>> test(const Vertices<Scalar>& stored, const PointOf<Scalar>& from,
                                                      const PointOf<Scalar>& to) const {
@@ -69,6 +73,7 @@ struct McGuire {
     }
 };
 
+/// `McGuire` with its defaults.
 inline constexpr McGuire mcguire{};
 
 }  // namespace pierce::kernels

@@ -19,17 +19,20 @@ namespace pierce::kernels {
 /// different sides. A triangle of area zero with b = c, or with corners on a slanted line, may have a determinant of
 /// the size of rounding, and be hit.
 struct MollerTrumbore {
-    Sides sides = Sides::front;
+    Sides sides = Sides::front;  ///< the side that a segment must come from
 
+    /// What is stored: the corners.
     template <class Number>
     using Stored = Vertices<Number>;
 
+    /// The stored form of a triangle.
     template <class Scalar>
     [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
                                            const PointOf<Scalar>& c) const {
         return {triple<Scalar>(a), triple<Scalar>(b), triple<Scalar>(c)};
     }
 
+    /// The test in any type of number: for one segment, or for several in step.
     template <class Number>
     [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& t, const Triple<Number>& from,
                                           const Triple<Number>& to) const {
@@ -56,6 +59,7 @@ struct MollerTrumbore {
         return divided(hit, fraction, u, v, det);
     }
 
+    /// Whether and where the segment from -> to hits the triangle.
     template <class Scalar>
     [[nodiscard]] std::optional<Answer<Scalar>> test(const Vertices<Scalar>& stored, const PointOf<Scalar>& from,
                                                      const PointOf<Scalar>& to) const {
@@ -63,6 +67,7 @@ struct MollerTrumbore {
     }
 };
 
+/// `MollerTrumbore` with its defaults.
 inline constexpr MollerTrumbore moller_trumbore{};
 
 }  // namespace pierce::kernels

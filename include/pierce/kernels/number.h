@@ -14,37 +14,45 @@ namespace pierce::kernels {
 // A number has + - * / and the comparisons; what these yield is its mask: bool, or one truth value for each lane. A
 // type with lanes brings `none`, `select` and the other functions of this page along, in its own namespace.
 
+/// What a comparison of two numbers gives: bool, or one truth value for each lane.
 template <class Number>
 using Mask = decltype(std::declval<const Number&>() < std::declval<const Number&>());
 
 /// No lane is true: nothing is left to do. For one lane that is the plain negation, and so the plain early-out.
 [[nodiscard]] constexpr bool none(bool mask) { return !mask; }
 
+/// `yes` where the mask is true, else `no`.
 template <class Number>
 [[nodiscard]] constexpr Number select(bool mask, const Number& yes, const Number& no) {
     return mask ? yes : no;
 }
 
+/// Three numbers: a point or a vector.
 template <class Number>
 using Triple = std::array<Number, 3>;
 
+/// A vector of Eigen's as three numbers.
 template <class Scalar>
 [[nodiscard]] Triple<Scalar> triple(const Vec3<Scalar>& v) {
     return {v[0], v[1], v[2]};
 }
 
+/// The difference of two vectors.
 template <class Number>
 [[nodiscard]] constexpr Triple<Number> operator-(const Triple<Number>& p, const Triple<Number>& q) {
     return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
 }
+/// A vector times a number.
 template <class Number>
 [[nodiscard]] constexpr Triple<Number> operator*(const Number& s, const Triple<Number>& p) {
     return {s * p[0], s * p[1], s * p[2]};
 }
+/// The dot product.
 template <class Number>
 [[nodiscard]] constexpr Number dot(const Triple<Number>& p, const Triple<Number>& q) {
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
 }
+/// The cross product.
 template <class Number>
 [[nodiscard]] constexpr Triple<Number> cross(const Triple<Number>& p, const Triple<Number>& q) {
     return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
@@ -58,13 +66,13 @@ template <class Scalar>
     return size(2) > size(xy) ? 2 : xy;
 }
 
-/// An affine function of a point, `normal . p + offset`: a row of an affine map, or a plane scaled to measure what is
-/// wanted.
+/// An affine function of a point: a row of an affine map, or a plane scaled to measure what is wanted.
 template <class Number>
 struct Plane {
-    Triple<Number> normal;
-    Number offset;
+    Triple<Number> normal;  ///< the gradient
+    Number offset;          ///< the value at the origin
 
+    /// The value at p: dot(normal, p) + offset.
     [[nodiscard]] constexpr Number operator()(const Triple<Number>& p) const { return dot(normal, p) + offset; }
 };
 
@@ -77,18 +85,18 @@ template <class Number>
 /// What is stored where nothing is computed beforehand.
 template <class Number>
 struct Vertices {
-    Triple<Number> a;
-    Triple<Number> b;
-    Triple<Number> c;
+    Triple<Number> a;  ///< a corner
+    Triple<Number> b;  ///< a corner
+    Triple<Number> c;  ///< a corner
 };
 
 /// The outcome of a test in the numbers it was made in. The values mean something where `hit` is true.
 template <class Number>
 struct Tested {
-    Mask<Number> hit;
-    Number fraction{};
-    Number u{};
-    Number v{};
+    Mask<Number> hit;   ///< whether there is a hit
+    Number fraction{};  ///< of the segment
+    Number u{};         ///< weight of b
+    Number v{};         ///< weight of c
 };
 
 /// Late division (Bloom 2002, addendum): everything has been decided on multiples by d > 0, and only a hit pays for
@@ -103,9 +111,9 @@ template <class Number>
 /// from > to.
 template <class Number>
 struct Passage {
-    Mask<Number> hit;
-    Number from;
-    Number to;
+    Mask<Number> hit;  ///< whether the plane is passed from a side that counts
+    Number from;       ///< the start's height, turned
+    Number to;         ///< the end's height, turned
 };
 
 /// Bloom's rule for the plane: the start on it counts as in front of it, the end has to be behind. For the back the
@@ -127,9 +135,11 @@ template <class Number>
 template <class Number>
 class Turning {
   public:
+    /// `determinant`: positive for a segment from the front.
     Turning(const Number& determinant, Sides sides)
         : sides_(sides), positive_(determinant > Number{}), negative_(determinant < Number{}) {}
 
+    /// x, turned as the determinant is.
     [[nodiscard]] Number operator()(const Number& x) const {
         return sides_ == Sides::front ? x : sides_ == Sides::back ? -x : select(negative_, -x, x);
     }

@@ -27,6 +27,7 @@
 
 namespace pierce::kernels {
 
+/// Where a segment meets a fan.
 template <class Scalar>
 struct FanAnswer : Answer<Scalar> {
     /// Which of the fan: k has the corners apex, ring[k], ring[k + 1]; u and v are the weights of the last two.
@@ -38,18 +39,21 @@ struct FanAnswer : Answer<Scalar> {
 /// thin or nearly opposite to one another: for fans of good triangles with up to ten members they stay within a few
 /// times those of `BaldwinWeber12`, with 64 it is some hundred times. `fans_of` has a limit for that.
 struct TriangleFan {
-    Sides sides = Sides::front;
+    Sides sides = Sides::front;  ///< the side that a segment must come from
 
+    /// The map to the basis of the first triangle.
     template <class Number>
     using First = FanFirst<Number>;
+    /// The change from one basis to the next.
     template <class Number>
     using Turn = FanTurn<Number>;
     /// 6 (n + 1) numbers.
     template <class Number>
     struct Stored {
-        First<Number> first;
-        std::vector<Turn<Number>> turns;
+        First<Number> first;              ///< the first triangle
+        std::vector<Turn<Number>> turns;  ///< one for each of the others
 
+        /// How many triangles the fan has.
         [[nodiscard]] std::size_t triangles() const { return turns.size() + 1; }
     };
 
@@ -89,6 +93,7 @@ struct TriangleFan {
         return stored;
     }
 
+    /// A fan of one triangle.
     template <class Scalar>
     [[nodiscard]] Stored<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
                                          const PointOf<Scalar>& c) const {
@@ -97,13 +102,14 @@ struct TriangleFan {
         return basis ? Stored<Scalar>{fan_first(*basis, apex), {}} : Stored<Scalar>{};
     }
 
+    /// The first hit along the segment, if there is one. Linear in the triangles.
     template <class Scalar>
     [[nodiscard]] std::optional<FanAnswer<Scalar>> test(const Stored<Scalar>& fan, const PointOf<Scalar>& from,
                                                         const PointOf<Scalar>& to) const {
         return evaluate<Scalar>(fan.first, fan.turns, triple<Scalar>(from), triple<Scalar>(to));
     }
 
-    /// `Number` has one lane: its mask is bool.
+    /// The same in any type of number that has one lane: its mask is bool.
     template <class Number>
     [[nodiscard]] std::optional<FanAnswer<Number>> evaluate(const First<Number>& first,
                                                             std::span<const Turn<Number>> turns,
@@ -208,6 +214,7 @@ struct TriangleFan {
     };
 };
 
+/// `TriangleFan` with its defaults.
 inline constexpr TriangleFan triangle_fan{};
 
 }  // namespace pierce::kernels

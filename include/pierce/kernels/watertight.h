@@ -40,17 +40,20 @@ template <class Number>
 /// overflows or underflows and nothing is contracted. Not at the plane: whether an end lies in front of it is as
 /// rounded as everywhere, so chains of steps leak.
 struct Watertight {
-    Sides sides = Sides::front;
+    Sides sides = Sides::front;  ///< the side that a segment must come from
 
+    /// What is stored: the corners.
     template <class Number>
     using Stored = Vertices<Number>;
 
+    /// The stored form of a triangle.
     template <class Scalar>
     [[nodiscard]] Vertices<Scalar> prepare(const Vec3<Scalar>& a, const PointOf<Scalar>& b,
                                            const PointOf<Scalar>& c) const {
         return {triple<Scalar>(a), triple<Scalar>(b), triple<Scalar>(c)};
     }
 
+    /// The test in any type of number: for one segment, or for several in step.
     template <class Number>
     [[nodiscard]] Tested<Number> evaluate(const Vertices<Number>& t, const Triple<Number>& from,
                                           const Triple<Number>& to) const {
@@ -105,6 +108,7 @@ struct Watertight {
         return divided(hit, fraction, turn(v), turn(w), det);
     }
 
+    /// Whether and where the segment from -> to hits the triangle.
     template <class Scalar>
     [[nodiscard]] std::optional<Answer<Scalar>> test(const Vertices<Scalar>& stored, const PointOf<Scalar>& from,
                                                      const PointOf<Scalar>& to) const {
@@ -112,6 +116,7 @@ struct Watertight {
     }
 };
 
+/// `Watertight` with its defaults.
 inline constexpr Watertight watertight{};
 
 }  // namespace pierce::kernels

@@ -20,12 +20,12 @@ extern "C" {
 
 /// Why something could not be done. The numbers stay what they are.
 typedef enum pierce_status {
-    PIERCE_OK = 0,
-    PIERCE_BAD_MESH = 1,      ///< the mesh can't be used: an index out of range, a coordinate that is not finite
-    PIERCE_BAD_FILE = 2,      ///< the file can't be read, or holds no mesh that can be used
-    PIERCE_BAD_ARGUMENT = 3,  ///< an option without a meaning, sizes that don't fit, a null pointer
-    PIERCE_OUT_OF_MEMORY = 4,
-    PIERCE_FAILED = 5,  ///< anything else, from the caller's executor or the system
+    PIERCE_OK = 0,             ///< it was done
+    PIERCE_BAD_MESH = 1,       ///< the mesh can't be used: an index out of range, a coordinate that is not finite
+    PIERCE_BAD_FILE = 2,       ///< the file can't be read, or holds no mesh that can be used
+    PIERCE_BAD_ARGUMENT = 3,   ///< an option without a meaning, sizes that don't fit, a null pointer
+    PIERCE_OUT_OF_MEMORY = 4,  ///< there was not enough of it
+    PIERCE_FAILED = 5,         ///< anything else, from the caller's executor or the system
 } pierce_status;
 
 /// A few words for people, such as "bad mesh". Empty for a number that is no status. Never freed.
@@ -41,26 +41,26 @@ PIERCE_EXPORT int pierce_version(void);
 /// Points of the caller, wherever they lie: three floats in a row, and from one point to the next `stride` bytes, which
 /// may be any number, negative as well. 0 stands for 3 * sizeof(float): one point behind the other. Nothing is copied.
 typedef struct pierce_points_f {
-    const float* first;
-    size_t count;
-    ptrdiff_t stride;
+    const float* first;  ///< the first number of the first point
+    size_t count;        ///< how many points
+    ptrdiff_t stride;    ///< bytes from one point to the next, or 0
 } pierce_points_f;
 
 /// The same in double. If `first` is NULL, `floats` is used: points in float for a mesh in double. A stride of 0
 /// then stands for 3 * sizeof(float).
 typedef struct pierce_points_d {
-    const double* first;
-    size_t count;
-    ptrdiff_t stride;
-    const float* floats;
+    const double* first;  ///< the first number of the first point, or NULL
+    size_t count;         ///< how many points
+    ptrdiff_t stride;     ///< bytes from one point to the next, or 0
+    const float* floats;  ///< the same in float, used if `first` is NULL
 } pierce_points_d;
 
 /// Triangles of the caller: three indices of positions in a row, counter-clockwise seen from the front, and from one
 /// triangle to the next `stride` bytes. 0 stands for three indices: one triangle behind the other.
 typedef struct pierce_triangles {
-    const uint32_t* first;
-    size_t count;  ///< triangles, not indices
-    ptrdiff_t stride;
+    const uint32_t* first;   ///< the first index of the first triangle, or NULL
+    size_t count;            ///< triangles, not indices
+    ptrdiff_t stride;        ///< bytes from one triangle to the next, or 0
     const uint16_t* shorts;  ///< used if `first` is NULL: indices of 16 bits
     /// For each triangle the number of its face, with which hits name it; several triangles may share one. NULL: the
     /// number of the triangle.
@@ -69,8 +69,8 @@ typedef struct pierce_triangles {
 
 /// Segments: as many starts as ends.
 typedef struct pierce_segments_f {
-    pierce_points_f from;
-    pierce_points_f to;
+    pierce_points_f from;  ///< where each begins
+    pierce_points_f to;    ///< where each ends
 } pierce_segments_f;
 
 typedef struct pierce_segments_d {
@@ -82,11 +82,11 @@ typedef struct pierce_segments_d {
 /// origins; and no limit (`limit_count` 0: all are infinite), one for all of them, or one for each, `limit_stride`
 /// bytes apart (0: one behind the other).
 typedef struct pierce_rays_f {
-    pierce_points_f origins;
-    pierce_points_f directions;
-    const float* limits;
-    size_t limit_count;
-    ptrdiff_t limit_stride;
+    pierce_points_f origins;     ///< where each begins
+    pierce_points_f directions;  ///< where each goes; of any length but 0
+    const float* limits;         ///< the largest t; NULL where there is none
+    size_t limit_count;          ///< 0, 1 or one for each ray
+    ptrdiff_t limit_stride;      ///< bytes from one limit to the next, or 0
 } pierce_rays_f;
 
 typedef struct pierce_rays_d {
@@ -97,13 +97,16 @@ typedef struct pierce_rays_d {
     ptrdiff_t limit_stride;
 } pierce_rays_d;
 
+/// One part of the work: called with `data` as it was given and the number of the part.
+typedef void (*pierce_task)(void* data, size_t part);
+
 /// Runs work on the caller's threads: `run(parts, task, data, user)` calls `task(data, i)` once for each i below
 /// `parts`, in any order and on any threads, and returns when all are done. Answers don't depend on it. A null pointer
 /// to an executor, or a null `run`: the thread that calls does it all.
-typedef void (*pierce_task)(void* data, size_t part);
 typedef struct pierce_executor {
-    void (*run)(size_t parts, pierce_task task, void* data, void* user);
-    void* user;
+    void (*run)(size_t parts, pierce_task task, void* data,
+                void* user);  ///< does all parts, and returns when they are done
+    void* user;               ///< handed to `run`
 } pierce_executor;
 
 #ifdef __cplusplus

@@ -19,12 +19,14 @@ PIERCE_EXPORT pierce_status pierce_first_hits_f(const pierce_mesh_f* mesh, const
 PIERCE_EXPORT pierce_status pierce_first_hits_d(const pierce_mesh_d* mesh, const pierce_segments_d* segments,
                                                 pierce_hit_d* hits, size_t* count, const pierce_query_options* options,
                                                 const pierce_executor* executor);
+/// The same as `pierce_first_hits_f`, for steps of moving points.
 PIERCE_EXPORT pierce_status pierce_sweeps_f(const pierce_mesh_f* mesh, const pierce_segments_f* steps,
                                             pierce_hit_f* hits, size_t* count, const pierce_query_options* options,
                                             const pierce_executor* executor);
 PIERCE_EXPORT pierce_status pierce_sweeps_d(const pierce_mesh_d* mesh, const pierce_segments_d* steps,
                                             pierce_hit_d* hits, size_t* count, const pierce_query_options* options,
                                             const pierce_executor* executor);
+/// The same for rays.
 PIERCE_EXPORT pierce_status pierce_first_hits_of_rays_f(const pierce_mesh_f* mesh, const pierce_rays_f* rays,
                                                         pierce_hit_f* hits, size_t* count,
                                                         const pierce_query_options* options,
@@ -36,19 +38,19 @@ PIERCE_EXPORT pierce_status pierce_first_hits_of_rays_d(const pierce_mesh_d* mes
 
 /// Hits as one array for each of their members. Null arrays are not written; points and vectors take three numbers.
 typedef struct pierce_hit_arrays_f {
-    uint8_t* hit;  ///< 1 or 0
-    float* fraction;
-    float* exact_fraction;
-    float* point;
-    float* position;
-    float* normal;
-    float* barycentric;
-    uint32_t* face;
-    uint32_t* triangle;
-    uint8_t* side;
-    uint8_t* feature;
-    uint8_t* feature_index;
-    uint8_t* at_start;
+    uint8_t* hit;            ///< 1 or 0
+    float* fraction;         ///< as in `pierce_hit_f`
+    float* exact_fraction;   ///< as in `pierce_hit_f`
+    float* point;            ///< as in `pierce_hit_f`, three numbers a hit
+    float* position;         ///< as in `pierce_hit_f`, three numbers a hit
+    float* normal;           ///< as in `pierce_hit_f`, three numbers a hit
+    float* barycentric;      ///< as in `pierce_hit_f`, three numbers a hit
+    uint32_t* face;          ///< as in `pierce_hit_f`
+    uint32_t* triangle;      ///< as in `pierce_hit_f`
+    uint8_t* side;           ///< as in `pierce_hit_f`
+    uint8_t* feature;        ///< as in `pierce_hit_f`
+    uint8_t* feature_index;  ///< as in `pierce_hit_f`
+    uint8_t* at_start;       ///< 1 or 0
 } pierce_hit_arrays_f;
 
 typedef struct pierce_hit_arrays_d {
@@ -67,6 +69,7 @@ typedef struct pierce_hit_arrays_d {
     uint8_t* at_start;
 } pierce_hit_arrays_d;
 
+/// As `pierce_first_hits_f`, into arrays.
 PIERCE_EXPORT pierce_status pierce_first_hit_arrays_f(const pierce_mesh_f* mesh, const pierce_segments_f* segments,
                                                       const pierce_hit_arrays_f* arrays, size_t* count,
                                                       const pierce_query_options* options,
@@ -139,6 +142,7 @@ PIERCE_EXPORT pierce_status pierce_contains_points_f(const pierce_mesh_f* mesh, 
 PIERCE_EXPORT pierce_status pierce_contains_points_d(const pierce_mesh_d* mesh, const pierce_points_d* points,
                                                      uint8_t* answers, size_t* count, pierce_counters* counters,
                                                      const pierce_executor* executor);
+/// `pierce_winding_number` of many points.
 PIERCE_EXPORT pierce_status pierce_winding_numbers_f(const pierce_mesh_f* mesh, const pierce_points_f* points,
                                                      int* numbers, pierce_counters* counters,
                                                      const pierce_executor* executor);

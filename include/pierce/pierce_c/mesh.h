@@ -11,15 +11,16 @@ extern "C" {
 typedef struct pierce_mesh_f pierce_mesh_f;
 typedef struct pierce_mesh_d pierce_mesh_d;
 
+/// How the triangles near a segment are found. The answers are the same, to the last bit.
 typedef enum pierce_broadphase {
     PIERCE_AUTOMATIC = 0,  ///< what the environment variable PIERCE_BROADPHASE says, else the tree
-    PIERCE_TREE = 1,
-    PIERCE_GRID = 2,
+    PIERCE_TREE = 1,       ///< a tree of boxes
+    PIERCE_GRID = 2,       ///< one uniform grid
 } pierce_broadphase;
 
 /// Zeros are the defaults. None of these changes an answer.
 typedef struct pierce_build_options {
-    pierce_broadphase broadphase;
+    pierce_broadphase broadphase;     ///< what to build
     double cell_size;                 ///< of the grid, in units of the mesh; 0: chosen from the triangles' sizes
     size_t max_grid_bytes;            ///< 0: a multiple of the number of triangles
     const char* backend;              ///< avx512, avx2, sse2, neon or plain; NULL: the machine's fastest
@@ -32,23 +33,24 @@ PIERCE_EXPORT pierce_status pierce_mesh_create_f(const pierce_points_f* position
                                                  const pierce_build_options* options, pierce_mesh_f** mesh);
 PIERCE_EXPORT pierce_status pierce_mesh_create_d(const pierce_points_d* positions, const pierce_triangles* triangles,
                                                  const pierce_build_options* options, pierce_mesh_d** mesh);
+/// Frees the mesh; NULL is fine.
 PIERCE_EXPORT void pierce_mesh_destroy_f(pierce_mesh_f* mesh);
 PIERCE_EXPORT void pierce_mesh_destroy_d(pierce_mesh_d* mesh);
 
 /// What was built. Bytes are those that the library holds.
 typedef struct pierce_statistics {
-    size_t vertices;
-    size_t faces;
-    size_t triangles;
-    size_t degenerate;  ///< triangles of area zero: kept, and never hit
-    size_t clusters;
-    pierce_broadphase broadphase;
-    size_t nodes;
-    double cell_size;
-    size_t grid_references;
-    char backend[16];  ///< empty if nothing was built
-    size_t bytes;
-    uint64_t invalid_queries;  ///< so far, with a coordinate that is not finite: they had no hit
+    size_t vertices;               ///< positions, used or not
+    size_t faces;                  ///< different numbers in `pierce_triangles.faces`
+    size_t triangles;              ///< all of them
+    size_t degenerate;             ///< triangles of area zero: kept, and never hit
+    size_t clusters;               ///< records of up to eight triangles
+    pierce_broadphase broadphase;  ///< PIERCE_TREE or PIERCE_GRID
+    size_t nodes;                  ///< of the tree; 0 with a grid
+    double cell_size;              ///< of the grid; 0 with a tree
+    size_t grid_references;        ///< entries of all its cell lists together
+    char backend[16];              ///< empty if nothing was built
+    size_t bytes;                  ///< that the library holds for it
+    uint64_t invalid_queries;      ///< so far, with a coordinate that is not finite: they had no hit
 } pierce_statistics;
 
 /// All zeros for a null mesh.
@@ -57,16 +59,16 @@ PIERCE_EXPORT void pierce_mesh_statistics_d(const pierce_mesh_d* mesh, pierce_st
 
 /// What is odd about a mesh (mesh_report.h). Vertices with equal coordinates count as one.
 typedef struct pierce_mesh_report {
-    bool closed;        ///< no particle gets from one side to the other without a hit
-    size_t zero_area;   ///< triangles
-    size_t duplicates;  ///< triangles with the corners of one before
-    size_t border_edges;
-    size_t non_manifold_edges;
-    size_t misoriented_edges;
-    size_t non_manifold_vertices;
-    size_t t_junctions;
-    size_t components;
-    size_t edges_with[9];  ///< [n]: edges that n triangles share; [8]: with 8 and more
+    bool closed;                   ///< no particle gets from one side to the other without a hit
+    size_t zero_area;              ///< triangles
+    size_t duplicates;             ///< triangles with the corners of one before
+    size_t border_edges;           ///< edges with one triangle
+    size_t non_manifold_edges;     ///< edges with more than two
+    size_t misoriented_edges;      ///< edges that more triangles follow one way than the other
+    size_t non_manifold_vertices;  ///< vertices whose triangles fall into several fans
+    size_t t_junctions;            ///< border vertices in the middle of a border edge
+    size_t components;             ///< sets of triangles joined by edges
+    size_t edges_with[9];          ///< [n]: edges that n triangles share; [8]: with 8 and more
 } pierce_mesh_report;
 
 /// Looks at the mesh anew with each call. `report` may be NULL. The text, a few lines for people, goes to `text` as far
@@ -83,8 +85,8 @@ typedef struct pierce_soup_d pierce_soup_d;
 
 /// Zeros are the defaults: nothing but the surface is kept.
 typedef struct pierce_read_options {
-    bool materials;
-    bool groups;
+    bool materials;  ///< keep the names of materials
+    bool groups;     ///< keep the names of groups
 } pierce_read_options;
 
 /// Reads OBJ, OFF, PLY or STL, told by the name's ending. On failure `*soup` is NULL: PIERCE_BAD_FILE, with a message
@@ -93,6 +95,7 @@ PIERCE_EXPORT pierce_status pierce_soup_read_f(const char* path, const pierce_re
                                                pierce_soup_f** soup);
 PIERCE_EXPORT pierce_status pierce_soup_read_d(const char* path, const pierce_read_options* options,
                                                pierce_soup_d** soup);
+/// Frees the soup; NULL is fine.
 PIERCE_EXPORT void pierce_soup_destroy_f(pierce_soup_f* soup);
 PIERCE_EXPORT void pierce_soup_destroy_d(pierce_soup_d* soup);
 
@@ -103,10 +106,11 @@ PIERCE_EXPORT void pierce_soup_view_f(const pierce_soup_f* soup, pierce_points_f
 PIERCE_EXPORT void pierce_soup_view_d(const pierce_soup_d* soup, pierce_points_d* positions,
                                       pierce_triangles* triangles);
 
-/// The name of the material, and of the group, of a face of the file, as hits name it; valid until the soup is
-/// destroyed. NULL where it has none, or they were not asked for.
+/// The name of the material of a face of the file, as hits name it; valid until the soup is destroyed. NULL where it
+/// has none, or they were not asked for.
 PIERCE_EXPORT const char* pierce_soup_material_f(const pierce_soup_f* soup, uint32_t face);
 PIERCE_EXPORT const char* pierce_soup_material_d(const pierce_soup_d* soup, uint32_t face);
+/// The name of the group, in the same way.
 PIERCE_EXPORT const char* pierce_soup_group_f(const pierce_soup_f* soup, uint32_t face);
 PIERCE_EXPORT const char* pierce_soup_group_d(const pierce_soup_d* soup, uint32_t face);
 

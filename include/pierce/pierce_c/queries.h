@@ -48,16 +48,19 @@ PIERCE_EXPORT bool pierce_first_hit_of_ray_f(const pierce_mesh_f* mesh, const fl
                                              float limit, pierce_hit_f* hit, const pierce_query_options* options);
 PIERCE_EXPORT bool pierce_first_hit_of_ray_d(const pierce_mesh_d* mesh, const double* origin, const double* direction,
                                              double limit, pierce_hit_d* hit, const pierce_query_options* options);
+/// Whether the ray hits anything.
 PIERCE_EXPORT bool pierce_any_hit_of_ray_f(const pierce_mesh_f* mesh, const float* origin, const float* direction,
                                            float limit, const pierce_query_options* options);
 PIERCE_EXPORT bool pierce_any_hit_of_ray_d(const pierce_mesh_d* mesh, const double* origin, const double* direction,
                                            double limit, const pierce_query_options* options);
+/// As `pierce_all_hits_f`, of a ray.
 PIERCE_EXPORT size_t pierce_all_hits_of_ray_f(const pierce_mesh_f* mesh, const float* origin, const float* direction,
                                               float limit, pierce_hit_f* hits, size_t capacity,
                                               const pierce_query_options* options);
 PIERCE_EXPORT size_t pierce_all_hits_of_ray_d(const pierce_mesh_d* mesh, const double* origin, const double* direction,
                                               double limit, pierce_hit_d* hits, size_t capacity,
                                               const pierce_query_options* options);
+/// As `pierce_crossings_f`, of a ray.
 PIERCE_EXPORT int pierce_crossings_of_ray_f(const pierce_mesh_f* mesh, const float* origin, const float* direction,
                                             float limit, pierce_counters* counters);
 PIERCE_EXPORT int pierce_crossings_of_ray_d(const pierce_mesh_d* mesh, const double* origin, const double* direction,

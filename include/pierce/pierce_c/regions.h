@@ -18,8 +18,8 @@ typedef struct pierce_regions_d pierce_regions_d;
 
 /// The regions on the two sides of a face: numbers of the caller's choice.
 typedef struct PIERCE_MAY_ALIAS pierce_face_regions {
-    uint32_t front;
-    uint32_t behind;
+    uint32_t front;   ///< on the side that sees its corners counter-clockwise
+    uint32_t behind;  ///< on the other side
 } pierce_face_regions;
 
 /// `labels[f]` is for the caller's face f; copied. `outside`: the region around the model. On failure `*regions` is
@@ -28,6 +28,7 @@ PIERCE_EXPORT pierce_status pierce_regions_create_f(const pierce_mesh_f* mesh, c
                                                     size_t label_count, uint32_t outside, pierce_regions_f** regions);
 PIERCE_EXPORT pierce_status pierce_regions_create_d(const pierce_mesh_d* mesh, const pierce_face_regions* labels,
                                                     size_t label_count, uint32_t outside, pierce_regions_d** regions);
+/// Frees the regions; NULL is fine.
 PIERCE_EXPORT void pierce_regions_destroy_f(pierce_regions_f* regions);
 PIERCE_EXPORT void pierce_regions_destroy_d(pierce_regions_d* regions);
 
@@ -41,14 +42,14 @@ PIERCE_EXPORT uint32_t pierce_region_at_d(const pierce_regions_d* regions, const
 
 /// A part of a flight that lies in one region.
 typedef struct PIERCE_MAY_ALIAS pierce_leg_f {
-    float entry;  ///< fraction of the segment, or t of the ray
-    float exit;
-    uint32_t region;
-    uint32_t next;  ///< the region behind the face at `exit`; `region` where the flight ends
-    uint32_t face;  ///< the caller's number of the face at `exit`; PIERCE_NO_FACE where the flight ends
-    uint32_t triangle;
-    uint8_t side;     ///< pierce_sides: that the flight comes to the face from
-    bool consistent;  ///< the face at `exit` has `region` on this side: if not, the labels are wrong
+    float entry;        ///< fraction of the segment, or t of the ray
+    float exit;         ///< the same, at its end
+    uint32_t region;    ///< that all of it lies in
+    uint32_t next;      ///< the region behind the face at `exit`; `region` where the flight ends
+    uint32_t face;      ///< the caller's number of the face at `exit`; PIERCE_NO_FACE where the flight ends
+    uint32_t triangle;  ///< of that face; PIERCE_NO_FACE where the flight ends
+    uint8_t side;       ///< pierce_sides: that the flight comes to the face from
+    bool consistent;    ///< the face at `exit` has `region` on this side: if not, the labels are wrong
 } pierce_leg_f;
 
 typedef struct PIERCE_MAY_ALIAS pierce_leg_d {
@@ -75,9 +76,9 @@ PIERCE_EXPORT size_t pierce_walk_of_ray_d(const pierce_regions_d* regions, const
 
 /// A place for a particle, and the region that it lies in.
 typedef struct pierce_region_place_f {
-    float point[3];
-    uint32_t region;
-    bool reached;  ///< whether that is the region asked for, with nothing else on the way
+    float point[3];   ///< representable, as it is
+    uint32_t region;  ///< the region of `point`
+    bool reached;     ///< whether that is the region asked for, with nothing else on the way
 } pierce_region_place_f;
 
 typedef struct pierce_region_place_d {
