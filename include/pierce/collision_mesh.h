@@ -280,8 +280,9 @@ class PIERCE_EXPORT CollisionMesh : public MotionSweeps<Scalar> {
                             const QueryOptions& options = {}) const noexcept;
 
     /// The same for a ball that does not move: contacts with triangles that are no further from `center` than the
-    /// radius, decided exactly, the deepest first. An edge or a corner is left out where one of its triangles is nearer
-    /// elsewhere.
+    /// radius, decided exactly, the deepest first as far as a Scalar can tell their overlaps apart. An edge or a corner
+    /// is left out where one of its triangles is nearer elsewhere. A radius of 2^300 mesh sizes and more overlaps
+    /// everything alike in double: contacts may then be left out for others.
     std::size_t sphere_contacts(const Vec3<Scalar>& center, Scalar radius, std::span<SphereHit<Scalar>> out,
                                 const QueryOptions& options = {}) const noexcept;
 
