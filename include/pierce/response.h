@@ -149,8 +149,8 @@ struct Move {
 /// through the mesh, at no distance from the origin and with no skin. Where it slides, each target is a representable
 /// point that is certified, exactly, to lie in front of the planes of all faces that it slides along, as a rule a grain
 /// (`Hit::point`) from them: so no step is eaten by rounding, and a slide keeps its way. What rests is not moved, not
-/// by one bit: the result is then that of the step before, as long as velocity and options are. (In a sharp tip it takes
-/// two or three steps until it has come to rest: each ends where it is stopped, and `resting`.) Particles fed the same
+/// by one bit: the result is then that of the step before, as long as velocity and options are. (In a sharp tip it
+/// takes two or three steps to come to rest: each ends where the particle is stopped, `resting`.) Particles fed the same
 /// velocity in the same place do the same on every machine.
 ///
 /// A face is met where the way goes into it, and the particle is left where it is if that is within four grains of the

@@ -1,5 +1,5 @@
-// What the library uses of C++20 and libc++ 13 lacks, which is the one of Debian's Emscripten. Included before everything
-// else there, and nowhere else.
+// What the library uses of C++20 and libc++ 13 lacks, which is the one of Debian's Emscripten. Included before all else
+// there, and nowhere else.
 #pragma once
 
 #ifdef __cplusplus
