@@ -150,8 +150,8 @@ struct Move {
 /// point that is certified, exactly, to lie in front of the planes of all faces that it slides along, as a rule a grain
 /// (`Hit::point`) from them: so no step is eaten by rounding, and a slide keeps its way. What rests is not moved, not
 /// by one bit: the result is then that of the step before, as long as velocity and options are. (In a sharp tip it
-/// takes two or three steps to come to rest: each ends where the particle is stopped, `resting`.) Particles fed the same
-/// velocity in the same place do the same on every machine.
+/// takes two or three steps to come to rest: each ends where the particle is stopped, `resting`.) Particles fed the
+/// same velocity in the same place do the same on every machine.
 ///
 /// A face is met where the way goes into it, and the particle is left where it is if that is within four grains of the
 /// face's plane. So a resting particle takes one query for each face that it rests on, and a sliding one another: one
