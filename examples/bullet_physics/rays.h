@@ -1,4 +1,4 @@
-// Rays at the places where neighbouring triangles must agree, cast by Bullet and by pierce, and judged in whole numbers.
+// Rays at places where neighbouring triangles must agree, cast by Bullet and by pierce, and judged in whole numbers.
 #pragma once
 
 #include <array>
