@@ -1,8 +1,8 @@
 // What a query looked at, and why it hit what it hit: explain() as a picture and as lines for a modeller.
 //   visit_view [MESH] [--segment X Y Z X Y Z]        a table: how many faces were refused for which reason
 //   visit_view ... --picture visit.png --obj visit.obj
-// The picture has the faces whose boxes the segment's box meets, in the colours of their reasons. Nodes and clusters
-// are counted; explain() does not say which they were.
+// The picture has the boxes of nodes and clusters on the way to the hit, and the faces whose boxes the segment's box
+// meets, in the colours of their reasons.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <pierce/pierce.h>
@@ -46,6 +47,13 @@ const std::array k_styles = {Style{Reason::apart, {0.25f, 0.25f, 0.25f}, 1},
                              Style{Reason::later, {1, 0.35f, 0}, 2},
                              Style{Reason::first_hit, {0.1f, 0.9f, 0.1f}, 3}};
 
+/// Corners of a box have a bit for each axis: 0 is low, 1 is high.
+constexpr std::pair<unsigned, unsigned> k_box_edges[] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
+                                                         {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+show::Point corner(const pierce::VisitedBox& box, unsigned k) {
+    return {(k & 1 ? box.high : box.low).x(), (k & 2 ? box.high : box.low).y(), (k & 4 ? box.high : box.low).z()};
+}
+
 struct Query {
     pierce::Segment<float> segment;
     pierce::QueryOptions options;
@@ -57,6 +65,8 @@ class Visit {
         : soup_(soup), mesh_(mesh), query_(query), verdicts_(mesh.explain(query.segment, query.options)) {
         query_.options.counters = &counters_;
         hit_ = mesh.first_hit(query.segment, query_.options);
+        const double end = std::min(query.options.max_fraction, 1.0);
+        boxes_ = pierce::visited_boxes(mesh, query.segment, hit_ ? static_cast<double>(hit_->exact_fraction) : end);
     }
 
     void print(std::ostream& out) const {
@@ -70,7 +80,10 @@ class Visit {
                 << '\n';
         else
             out << "it hits nothing\n";
-        out << "the " << verdicts_.size() << " faces near it, by explain():\n";
+        const auto clusters = std::ranges::count(boxes_, true, &pierce::VisitedBox::is_cluster);
+        out << "on the way to it are the boxes of " << boxes_.size() - static_cast<std::size_t>(clusters)
+            << " nodes and " << clusters << " clusters\n"
+            << "the " << verdicts_.size() << " faces near it, by explain():\n";
         for (const Style& style : k_styles)
             if (const auto count = std::ranges::count(verdicts_, style.reason, &pierce::FaceVerdict::reason))
                 out << std::setw(8) << count << "  " << pierce::to_string(style.reason) << '\n';
@@ -94,6 +107,11 @@ class Visit {
                 for (std::size_t k = 0; k < 3; ++k)
                     lines.push_back({corners[k], corners[(k + 1) % 3], style.colour, style.width, on_top});
             });
+        for (const pierce::VisitedBox& box : boxes_) {
+            const show::Colour colour = box.is_cluster ? show::Colour(0.1f, 0.6f, 1) : show::Colour(0.9f, 0.1f, 0.5f);
+            for (const auto& [from, to] : k_box_edges)
+                lines.push_back({corner(box, from), corner(box, to), colour, box.is_cluster ? 2.0 : 1.0, true});
+        }
         lines.push_back({points[0], points[1], {1, 1, 1}, 2, true});
         canvas.draw(camera, lines);
         if (hit_) {
@@ -103,7 +121,7 @@ class Visit {
         show::write_png(file, canvas.image());
     }
 
-    /// The segment, and for each reason a group of outlines.
+    /// The segment, for each reason a group of outlines, and the boxes of nodes and clusters.
     void write_obj(const std::filesystem::path& path) const {
         std::ofstream file(path);
         file << std::setprecision(9);
@@ -112,7 +130,7 @@ class Visit {
             file << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
             return ++count;
         };
-        file << "# outlines of the faces near a segment, a group for each reason\ng segment\n";
+        file << "# outlines of the faces near a segment, a group for each reason; boxes\ng segment\n";
         write_vertex(query_.segment.from.cast<double>());
         write_vertex(query_.segment.to.cast<double>());
         file << "l 1 2\n";
@@ -129,6 +147,15 @@ class Visit {
                 for (const show::Point& corner : corners) write_vertex(corner);
                 file << "l " << count - 2 << ' ' << count - 1 << ' ' << count << ' ' << count - 2 << '\n';
             });
+        }
+        for (const bool is_cluster : {false, true}) {
+            file << (is_cluster ? "g clusters\n" : "g nodes\n");
+            for (const pierce::VisitedBox& box : boxes_) {
+                if (box.is_cluster != is_cluster) continue;
+                const std::size_t first = count + 1;
+                for (unsigned k = 0; k < 8; ++k) write_vertex(corner(box, k));
+                for (const auto& [from, to] : k_box_edges) file << "l " << first + from << ' ' << first + to << '\n';
+            }
         }
         file.close();
         if (!file) throw std::runtime_error(path.string() + ": can't be written");
@@ -151,6 +178,7 @@ class Visit {
     std::vector<pierce::FaceVerdict> verdicts_;
     pierce::QueryCounters counters_;
     std::optional<pierce::Hit<float>> hit_;
+    std::vector<pierce::VisitedBox> boxes_;
 };
 
 }  // namespace
@@ -160,6 +188,7 @@ int main(int argc, char** argv) {
     std::vector<float> ends;
     Query query;
     show::View view;
+    view.azimuth = 70;
     std::vector<int> size = {800, 600};
     CLI::App app("What a query looked at, and why it hit what it hit.", "visit_view");
     app.add_option("MESH", mesh_file, "A mesh: OBJ, OFF, PLY or STL; else a bumpy sphere of radius 1 is made");

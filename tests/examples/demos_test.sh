@@ -81,13 +81,14 @@ MESH
 run visit_view steps.obj --segment 1 1 3 1 1 -5 --obj visit.obj --picture visit.png --size 320x240
 prints "first_hit went to [01] of [01] nodes and 1 of 1 clusters of triangles"
 prints "it hits face 0 at \(1 1 0\), fraction 0\.375"
+prints "on the way to it are the boxes of 0 nodes and 1 clusters"
 prints " +1  first hit"
 prints " +1  later than the first hit"
 prints " +1  passes from the other side"
 prints " +2  boxes apart"
 prints " +1  zero area"
 picture visit.png 5000
-[ "$(grep -c '^l' visit.obj)" -eq 7 ] && grep -qx "l 15 16 17 15" visit.obj && grep -qx "g first_hit" visit.obj ||
+[ "$(grep -c '^l' visit.obj)" -eq 19 ] && grep -qx "l 15 16 17 15" visit.obj && grep -qx "g first_hit" visit.obj ||
     fail "$what: lines $(cat visit.obj)"
 run visit_view steps.obj --segment 1 1 3 1 1 -5 --sides back --max-fraction 0.5
 prints "it hits nothing"
@@ -95,6 +96,7 @@ prints " +1  beyond max_fraction"
 prints " +2  passes from the other side"
 run visit_view
 prints "it hits face [0-9]+ at .*"
+prints "on the way to it are the boxes of [1-9][0-9]* nodes and [1-9][0-9]* clusters"
 
 # Three cars take the same way, and rays that Bullet gets wrong pierce does not: else its status is not 0.
 windows=(rain bullets drum character)
