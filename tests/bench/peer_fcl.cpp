@@ -55,9 +55,10 @@ class Fcl : public Peer {
         fcl::Transform3d place = fcl::Transform3d::Identity();
         place.linear() = Eigen::Quaterniond::FromTwoVectors(Point::UnitZ(), way).toRotationMatrix();
         place.translation() = 0.5 * (from + to);
+        constexpr bool k_with_depths = false;  // which triangles are met, not how deep
         fcl::CollisionResultd result;
-        fcl::collide<double>(&mesh_, fcl::Transform3d::Identity(), &capsule, place, fcl::CollisionRequestd(1000, true),
-                             result);
+        fcl::collide<double>(&mesh_, fcl::Transform3d::Identity(), &capsule, place,
+                             fcl::CollisionRequestd(1000, k_with_depths), result);
         for (std::size_t i = 0; i < result.numContacts(); ++i)
             met.push_back(static_cast<std::size_t>(result.getContact(i).b1));
         return met;

@@ -45,6 +45,7 @@ struct Library {
     std::string name;
     std::unique_ptr<Peer> (*make)(const TriangleSoup<float>& soup, Backs backs);
     bool is_pierce = false;
+    bool hangs_at_ends = false;  ///< its calls may not return where a segment ends on a triangle
 };
 
 std::unique_ptr<Peer> make_pierce_float(const TriangleSoup<float>& soup, Backs backs);
@@ -76,7 +77,7 @@ inline std::vector<Library> libraries() {
     all.push_back({.name = "ODE", .make = make_ode});
 #endif
 #ifdef PIERCE_BENCH_FCL
-    all.push_back({.name = "FCL", .make = make_fcl});
+    all.push_back({.name = "FCL", .make = make_fcl, .hangs_at_ends = true});
 #endif
     return all;
 }

@@ -29,9 +29,10 @@ constexpr std::string_view k_what_is_called = R"(What is called, and what it pro
 - **ODE**: `dCollide` of a ray with a trimesh, which keeps its vertices in float, for the closest hit, or for all with
   room for 64 contacts. Both sides count, or fronts only with `dGeomRaySetBackfaceCull`. We found no promise about seams
   or ends.
-- **FCL**, in double: `fcl::collide` of a `BVHModel<OBBRSS>` with a capsule of radius 0, as FCL has no rays, with room
-  for 1,000 contacts. What is first is computed from the planes of the triangles reported, as its users have to. Both
-  sides count. Contacts are found by an iterative method with a tolerance. We found no promise about seams or ends.
+- **FCL**, in double: `fcl::collide` of a `BVHModel<OBBRSS>` with a capsule of radius 0, as FCL has no rays, with its
+  default solver and room for 1,000 contacts. What is first is computed from the planes of the triangles reported, as
+  its users have to. Both sides count. Contacts are found by an iterative method with a tolerance; where a capsule ends
+  on a triangle it may go on for ever, so tables 4 and 5 do not ask. We found no promise about seams or ends.
 
 )";
 
