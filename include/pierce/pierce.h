@@ -8,9 +8,9 @@
 // Read on in this order: types.h, mesh_view.h, triangle_soup.h, hit.h, options.h, ray.h, location.h, passage.h,
 // sphere.h, batch.h, collision_mesh.h; response.h for what a particle does after a hit; sweep_hit.h, motion.h,
 // rigid_hit.h, motion_sweeps.h and deforming_mesh.h for meshes that move; world.h for many meshes; regions.h for
-// particle transport; result.h for programs without exceptions. <pierce/openmesh.h> adds OpenMesh meshes,
-// <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single triangles. <pierce/pierce_c.h> is for
-// programs in C.
+// particle transport; result.h for programs without exceptions; explain.h and visits.h for why. <pierce/openmesh.h>
+// adds OpenMesh meshes, <pierce/tbb.h> the threads of oneTBB, <pierce/kernels.h> tests for single triangles.
+// <pierce/pierce_c.h> is for programs in C.
 #pragma once
 
 #include <pierce/batch.h>
@@ -36,4 +36,5 @@
 #include <pierce/try_read_mesh.h>
 #include <pierce/types.h>
 #include <pierce/version.h>
+#include <pierce/visits.h>
 #include <pierce/world.h>

@@ -100,6 +100,10 @@ void collide_and_slide(Run& run) {
         const Bowl bowl(offset);
         for (std::size_t i = 0; const Library& library : libraries()) {
             std::vector<std::string>& row = rows[i++];
+            if (library.hangs_at_ends) {  // its particles would stand on faces
+                row.insert(row.end(), {"-", "-"});
+                continue;
+            }
             const Outcome outcome = measure(run, library, bowl, 0, particles);
             row.push_back(outcome.outside.percent());
             const Outcome with_skin = library.is_pierce ? outcome : measure(run, library, bowl, k_skin, particles);

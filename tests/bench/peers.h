@@ -45,6 +45,7 @@ struct Library {
     std::string name;
     std::unique_ptr<Peer> (*make)(const TriangleSoup<float>& soup, Backs backs);
     bool is_pierce = false;
+    bool hangs_at_ends = false;  ///< its calls may not return where a segment ends on a triangle
 };
 
 std::unique_ptr<Peer> make_pierce_float(const TriangleSoup<float>& soup, Backs backs);
@@ -54,20 +55,31 @@ std::unique_ptr<Peer> make_embree_robust(const TriangleSoup<float>& soup, Backs 
 std::unique_ptr<Peer> make_bullet_default(const TriangleSoup<float>& soup, Backs backs);
 std::unique_ptr<Peer> make_bullet_front(const TriangleSoup<float>& soup, Backs backs);
 std::unique_ptr<Peer> make_cgal(const TriangleSoup<float>& soup, Backs backs);
+std::unique_ptr<Peer> make_ode(const TriangleSoup<float>& soup, Backs backs);
+std::unique_ptr<Peer> make_fcl(const TriangleSoup<float>& soup, Backs backs);
 
 std::string embree_version();
 std::string bullet_version();
 std::string cgal_version();
+std::string ode_version();
+std::string fcl_version();
 
-/// pierce, which looks at the fronts of faces, and the others.
+/// pierce, which looks at the fronts of faces, and the others. ODE and FCL where the build found them.
 inline std::vector<Library> libraries() {
-    return {{.name = "**pierce**, float", .make = make_pierce_float, .is_pierce = true},
-            {.name = "**pierce**, double", .make = make_pierce_double, .is_pierce = true},
-            {.name = "Embree", .make = make_embree_default},
-            {.name = "Embree, robust", .make = make_embree_robust},
-            {.name = "Bullet", .make = make_bullet_default},
-            {.name = "Bullet, backs filtered", .make = make_bullet_front},
-            {.name = "CGAL", .make = make_cgal}};
+    std::vector<Library> all = {{.name = "**pierce**, float", .make = make_pierce_float, .is_pierce = true},
+                                {.name = "**pierce**, double", .make = make_pierce_double, .is_pierce = true},
+                                {.name = "Embree", .make = make_embree_default},
+                                {.name = "Embree, robust", .make = make_embree_robust},
+                                {.name = "Bullet", .make = make_bullet_default},
+                                {.name = "Bullet, backs filtered", .make = make_bullet_front},
+                                {.name = "CGAL", .make = make_cgal}};
+#ifdef PIERCE_BENCH_ODE
+    all.push_back({.name = "ODE", .make = make_ode});
+#endif
+#ifdef PIERCE_BENCH_FCL
+    all.push_back({.name = "FCL", .make = make_fcl, .hangs_at_ends = true});
+#endif
+    return all;
 }
 
 }  // namespace pierce::bench
