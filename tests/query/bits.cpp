@@ -1,8 +1,11 @@
 // Prints one fingerprint of many answers, so that builds by different compilers and flags can be compared
-// (tests/same_bits).
+// (tests/same_bits, tests/platforms/run).
+//   bits [SHARE]      asks one in SHARE of the questions, for emulators, and has another fingerprint then
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include <motion/moving.h>
@@ -18,6 +21,8 @@
 
 namespace pierce::test {
 namespace {
+
+int share = 1;
 
 // Triangles of all sizes and shapes. One random number a statement: compilers differ in the order of operands.
 TriangleSoup<double> splinters(std::uint32_t count, std::uint64_t seed) {
@@ -90,7 +95,7 @@ void add_answers(Hash& hash, const TriangleSoup<double>& unit, double scale, dou
     using Whole = std::conditional_t<sizeof(Scalar) == 4, std::uint32_t, std::uint64_t>;
     std::array<Hit<Scalar>, 4> hits;
     std::vector<Segment<Scalar>> segments;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count / share; ++i) {
         const IndexTriple& t = soup.triangles[random.below(soup.triangles.size())];
         const Vec3<double> w = random.chance(0.3) ? Vec3<double>(0.5, 0.5, 0) : random.weights();
         Vec3<double> target = Vec3<double>::Zero();
@@ -181,7 +186,7 @@ void add_motions(Hash& hash, const TriangleSoup<double>& unit, double offset, in
     after.rotation << 12, -3, 4, 4, 12, -3, -3, 4, 12;  // a rotation but for its last bits, once it is divided
     after.rotation /= 13;
     const RigidMotion motion(before, after, 1e-3, Vec3<double>(0.5, 0.25, 0));
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count / share; ++i) {
         const Vec3<double> from = 3 * random.in_cube() + before.translation;
         const Vec3<double> to = 3 * random.in_cube() + before.translation;
         const Vec3<double> start = random.in_cube() + before.translation;
@@ -230,7 +235,7 @@ void add_worlds(Hash& hash, const TriangleSoup<double>& unit, double offset, int
         hash.add(hit.mesh.index);
         hash.add(hit.hit);
     };
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count / share; ++i) {
         if (i % 40 == 0) {
             InstanceOptions<Scalar> options;
             const Vec3<double> shift = 4 * random.in_cube() + Vec3<double>(offset, -offset, offset);
@@ -281,7 +286,7 @@ void add_worlds(Hash& hash, const TriangleSoup<double>& unit, double offset, int
 // Moving points and triangles, many of which touch.
 void add_impacts(Hash& hash, double scale, int digits) {
     Random random(9);
-    for (int i = 0; i < 2'000; ++i) {
+    for (int i = 0; i < 2'000 / share; ++i) {
         detail::MovingPoint point;
         detail::MovingTriangle triangle;
         const double grain = std::ldexp(1.0, digits);
@@ -306,8 +311,9 @@ void add_impacts(Hash& hash, double scale, int digits) {
 }  // namespace
 }  // namespace pierce::test
 
-int main() {
+int main(int count, char** arguments) {
     using namespace pierce::test;
+    if (count > 1) share = std::max(1, std::atoi(arguments[1]));
     Hash hash;
     for (const double offset : {0.0, 1e3, 1e6}) {
         add_answers<float>(hash, polycube(4, 0.5, 2, 1), 1, offset);
