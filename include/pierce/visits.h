@@ -12,10 +12,10 @@ namespace pierce {
 /// A box that a query opens: that of a node of the tree, with up to sixteen boxes in it, or that of a cluster of up to
 /// eight triangles.
 struct VisitedBox {
-    Vec3<double> low;
-    Vec3<double> high;
-    bool is_cluster;
-    double fraction;  ///< where the segment comes to it, about
+    Vec3<double> low;   ///< its least coordinates
+    Vec3<double> high;  ///< its greatest
+    bool is_cluster;    ///< else of a node
+    double fraction;    ///< of the segment, where it comes to the box, but for rounding
 };
 
 /// The boxes that the segment meets at a fraction of at most `up_to`, in the order in which it comes to them: for what
