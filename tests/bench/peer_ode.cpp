@@ -14,7 +14,8 @@ namespace {
 static_assert(sizeof(dReal) == sizeof(double) && sizeof(dTriIndex) == sizeof(std::uint32_t));
 
 void start_ode() {
-    static const bool has_started = dInitODE2(0) != 0 && dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) != 0;
+    static const bool has_started =
+        dInitODE2(0) != 0 && dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) != 0;
     if (!has_started) throw std::runtime_error("ODE does not start");
 }
 
