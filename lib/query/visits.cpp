@@ -108,7 +108,8 @@ template <class Scalar>
         for (const ClusterRef cluster : scene.cluster_refs) walk.open(cluster, box_of(scene, cluster));
     else
         walk.open(scene.tree.root, scene.bounds);
-    std::ranges::stable_sort(walk.boxes, {}, &VisitedBox::fraction);
+    std::stable_sort(walk.boxes.begin(), walk.boxes.end(),
+                     [](const VisitedBox& a, const VisitedBox& b) { return a.fraction < b.fraction; });
     return std::move(walk.boxes);
 }
 
