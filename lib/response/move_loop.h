@@ -131,11 +131,12 @@ class MoveLoop {
     [[nodiscard]] Move<Scalar> finished(const Vec3<Scalar>& position) {
         finish(move_, position, place_, turns_);
         if (blocked_) set(move_.remainder, turns_.way(left_));
-        if (move_.contacts > 0) move_.state = MoveState::slid;
         if (move_.contacts > 0 && turns_.is_still())
             move_.state = turns_.held() >= 3 ? MoveState::wedged : MoveState::resting;
         else if (blocked_ && place_ == start_)
             move_.state = MoveState::wedged;
+        else if (move_.contacts > 0)
+            move_.state = MoveState::slid;
         return move_;
     }
 
