@@ -142,7 +142,7 @@ int main(int argc, char** argv) {
     app.add_option("--drops", count, "How many drops (100000)")->check(CLI::Range(1, 100'000'000));
     CLI11_PARSE(app, argc, argv);
     try {
-        auto rain = std::make_unique<Rain>(show::mesh_or(options, show::bumpy_sphere(80)), count);
+        auto rain = std::make_unique<Rain>(show::mesh_or(options.mesh, show::bumpy_sphere(80)), count);
         return show::run(std::move(rain), "rain", options);
     } catch (const std::exception& error) {
         std::cerr << "rain: " << error.what() << '\n';

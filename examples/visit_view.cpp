@@ -20,6 +20,7 @@
 #include <pierce/pierce.h>
 #include <CLI/CLI.hpp>
 
+#include "show/demo.h"
 #include "show/picture.h"
 #include "show/shapes.h"
 
@@ -189,7 +190,6 @@ int main(int argc, char** argv) {
     Query query;
     show::View view;
     view.azimuth = 70;
-    std::vector<int> size = {800, 600};
     CLI::App app("What a query looked at, and why it hit what it hit.", "visit_view");
     app.add_option("MESH", mesh_file, "A mesh: OBJ, OFF, PLY or STL; else a bumpy sphere of radius 1 is made");
     app.add_option("--segment", ends, "From where to where; else through the middle of the mesh")->expected(6);
@@ -199,14 +199,10 @@ int main(int argc, char** argv) {
     app.add_option("--max-fraction", query.options.max_fraction, "Hits count up to this fraction of the segment");
     app.add_option("--picture", picture, "Draw it into this PNG file");
     app.add_option("--obj", obj, "Write it as lines into this OBJ file");
-    app.add_option("--size", size, "Pixels (800x600)")->delimiter('x')->expected(2)->check(CLI::Range(1, 10'000));
-    app.add_option("--samples", view.samples, "N times N samples a pixel (1)")->check(CLI::Range(1, 8));
-    app.add_option("--azimuth", view.azimuth, "Where to look from, in degrees");
-    app.add_option("--elevation", view.elevation, "The same, above the horizon");
+    show::add_view_options(app, view);
     CLI11_PARSE(app, argc, argv);
-    view.width = size[0], view.height = size[1];
     try {
-        const auto soup = mesh_file.empty() ? show::bumpy_sphere(16) : pierce::read_mesh<float>(mesh_file);
+        const auto soup = show::mesh_or(mesh_file, show::bumpy_sphere(16));
         const pierce::CollisionMesh<float> mesh(soup.view());
         if (ends.empty()) {
             Eigen::AlignedBox3f box;

@@ -8,8 +8,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include <CLI/CLI.hpp>
-
 #include "show/pictures.h"
 
 #ifdef SHOW_WINDOW

@@ -32,6 +32,8 @@ struct DemoOptions {
 
 /// Adds the options above.
 void add_demo_options(CLI::App& app, DemoOptions& options);
+/// Those of a view alone: size, samples, azimuth and elevation.
+void add_view_options(CLI::App& app, View& view);
 
 /// A simulation that can be shown.
 class Demo {
@@ -62,6 +64,6 @@ class Demo {
 int run(std::unique_ptr<Demo> demo, const std::string& title, const DemoOptions& options);
 
 /// Reads the mesh, or takes `made` where none is named.
-[[nodiscard]] pierce::TriangleSoup<float> mesh_or(const DemoOptions& options, pierce::TriangleSoup<float> made);
+[[nodiscard]] pierce::TriangleSoup<float> mesh_or(const std::filesystem::path& mesh, pierce::TriangleSoup<float> made);
 
 }  // namespace show

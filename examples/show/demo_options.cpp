@@ -16,23 +16,26 @@ void add_demo_options(CLI::App& app, DemoOptions& options) {
     app.add_option("--frames", options.frames, "No window: draw each step into a PNG file in this folder");
     app.add_flag("--no-window", options.no_window, "No window and no picture, figures only");
     app.add_option("--screenshot", options.screenshot, "Of the window, after --steps frames; then end");
+    add_view_options(app, options.view);
+}
+
+void add_view_options(CLI::App& app, View& view) {
     app.add_option(
            "--size",
-           [&options](const CLI::results_t& values) {
-               return std::sscanf(values.front().c_str(), "%dx%d", &options.view.width, &options.view.height) == 2 &&
-                      options.view.width > 0 && options.view.height > 0 && options.view.width <= 10'000 &&
-                      options.view.height <= 10'000;
+           [&view](const CLI::results_t& values) {
+               return std::sscanf(values.front().c_str(), "%dx%d", &view.width, &view.height) == 2 && view.width > 0 &&
+                      view.height > 0 && view.width <= 10'000 && view.height <= 10'000;
            },
            "Pixels (800x600)")
         ->type_name("WxH");
-    app.add_option("--samples", options.view.samples, "N times N samples a pixel, for smooth edges (1)")
+    app.add_option("--samples", view.samples, "N times N samples a pixel, for smooth edges (1)")
         ->check(CLI::Range(1, 8));
-    app.add_option("--azimuth", options.view.azimuth, "Where to look from, in degrees");
-    app.add_option("--elevation", options.view.elevation, "The same, above the horizon");
+    app.add_option("--azimuth", view.azimuth, "Where to look from, in degrees");
+    app.add_option("--elevation", view.elevation, "The same, above the horizon");
 }
 
-pierce::TriangleSoup<float> mesh_or(const DemoOptions& options, pierce::TriangleSoup<float> made) {
-    return options.mesh.empty() ? std::move(made) : pierce::read_mesh<float>(options.mesh);
+pierce::TriangleSoup<float> mesh_or(const std::filesystem::path& mesh, pierce::TriangleSoup<float> made) {
+    return mesh.empty() ? std::move(made) : pierce::read_mesh<float>(mesh);
 }
 
 }  // namespace show
