@@ -25,6 +25,10 @@ namespace {
 
 using namespace bullet_physics;
 
+constexpr auto k_colours =
+    "Red: a ray that Bullet answers wrongly.\n"
+    "Ways, one above the other: orange on Bullet's rays, blue and cyan on pierce's.";
+
 class Drive : public show::Demo {
   public:
     Drive(std::size_t rays, double tolerance) : near_(0), far_(4096), tolerance_(tolerance) {
@@ -77,7 +81,7 @@ class Drive : public show::Demo {
     }
     void panel() override {
         std::ostringstream text;
-        text << std::setprecision(3) << "furthest from Bullet's car: " << furthest() << " m";
+        text << std::setprecision(3) << "furthest from Bullet's car: " << furthest() << " m\n" << k_colours;
         show::text(text.str());
     }
     [[nodiscard]] std::string summary() const override {
@@ -129,11 +133,16 @@ int main(int argc, char** argv) {
     options.steps = 1200;
     std::size_t rays = 20'000;
     double tolerance = 0.01;
-    CLI::App app("Cars of Bullet's drive on pierce's rays, and rays are cast at seams.", "bullet_physics");
-    show::add_demo_options(app, options);
-    app.add_option("--rays", rays, "How many of each kind (20000)")->check(CLI::Range(1, 10'000'000));
+    CLI::App app(
+        "Cars drive in a Bullet world, one on Bullet's rays and two on pierce's; rays are cast at a terrain's seams by "
+        "both.",
+        "bullet_physics");
+    app.footer(k_colours);
+    app.add_option("--rays", rays, "How many of each kind (20000)")->check(CLI::Range(1, 10'000'000))->option_text("N");
     app.add_option("--tolerance", tolerance, "How far from Bullet's car pierce's may get, in meters (0.01)")
-        ->check(CLI::Range(0.0, 100.0));
+        ->check(CLI::Range(0.0, 100.0))
+        ->option_text("METERS");
+    show::add_demo_options(app, options);
     CLI11_PARSE(app, argc, argv);
     try {
         return show::run(std::make_unique<Drive>(rays, tolerance), "bullet_physics", options);

@@ -75,6 +75,8 @@ void roll(const pierce::CollisionMesh<float>& mesh, Bullet& bullet, float second
     bullet.velocity = move.velocity;
 }
 
+constexpr auto k_colours = "Orange bullets have gone through something, yellow ones have not; red: where one got out.";
+
 class Bullets : public show::Demo {
   public:
     Bullets(std::size_t count, float offset, float skin)
@@ -131,7 +133,7 @@ class Bullets : public show::Demo {
     void panel() override {
         show::check_box("show the world of plain floats", shows_plain_);
         show::slider("its skin, a distance kept from walls", skin_, 0, 0.1f);
-        show::text(summary());
+        show::text(summary() + k_colours);
     }
     [[nodiscard]] std::string summary() const override {
         std::ostringstream text;
@@ -192,13 +194,17 @@ int main(int argc, char** argv) {
     options.view.elevation = 35;
     std::size_t count = 500;
     float offset = 1000, skin = 0;
-    CLI::App app("Bullets ricochet in a hall, in two worlds; which of them keeps its bullets?", "bullets");
+    CLI::App app("Bullets ricochet in a hall: in pierce's world, and in one of plain floats. Which keeps its bullets?",
+                 "bullets");
+    app.footer(k_colours);
+    app.add_option("--bullets", count, "How many bullets (500)")->check(CLI::Range(1, 1'000'000))->option_text("N");
+    app.add_option("--skin", skin, "How far plain floats keep from what they hit, in meters, up to 1 (0)")
+        ->check(CLI::Range(0.0, 1.0))
+        ->option_text("METERS");
+    app.add_option("--offset", offset, "X, y and z of the hall's lower corner, in meters, up to 100000 (1000)")
+        ->check(CLI::Range(-1e5, 1e5))
+        ->option_text("METERS");
     show::add_demo_options(app, options);
-    app.add_option("--bullets", count, "How many bullets (500)")->check(CLI::Range(1, 1'000'000));
-    app.add_option("--skin", skin, "How far plain floats keep from what they hit, in meters (0)")
-        ->check(CLI::Range(0.0, 1.0));
-    app.add_option("--offset", offset, "Coordinates of the hall's lower corner, all three (1000)")
-        ->check(CLI::Range(-1e5, 1e5));
     CLI11_PARSE(app, argc, argv);
     try {
         return show::run(std::make_unique<Bullets>(count, offset, skin), "bullets", options);

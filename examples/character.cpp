@@ -1,4 +1,4 @@
-// A ball walks through a hall over a floor of many triangles, up a ramp and along walls, and is not held up by a seam.
+// A ball walks through a courtyard: over a floor of many triangles, up a ramp and along walls, and no seam holds it up.
 //   character                            a window: the way so far, and a slider for the direction
 //   character --picture character.png    no window: 900 steps of a walk in circles
 #include <algorithm>
@@ -77,7 +77,8 @@ class Character : public show::Demo {
     [[nodiscard]] std::string summary() const override {
         std::ostringstream text;
         text << steps_ << " steps, " << contacts_ << " contacts in the last one, "
-             << (overlaps() ? "overlaps" : "clear") << "\nway kept on the flat floor: " << 100 * kept() << " %\n";
+             << (overlaps() ? "the ball overlaps the mesh" : "no overlap")
+             << "\nspeed kept on the flat floor: " << 100 * kept() << " %\n";
         return text.str();
     }
 
@@ -104,7 +105,9 @@ int main(int argc, char** argv) {
     show::DemoOptions options;
     options.steps = 900;
     options.view.elevation = 40;
-    CLI::App app("A ball walks through a courtyard.", "character");
+    CLI::App app(
+        "A ball walks through a courtyard of many triangles, up a ramp and along walls, and catches on no edge.",
+        "character");
     show::add_demo_options(app, options);
     CLI11_PARSE(app, argc, argv);
     try {

@@ -24,6 +24,8 @@ using Vec3 = Eigen::Vector3f;
 using Move = pierce::Move<float>;
 using pierce::MoveState;
 
+constexpr auto k_colours = "Blue grains fly, yellow ones touch the drum.";
+
 class Drum : public show::Demo {
   public:
     explicit Drum(std::size_t count) : soup_(show::paddle_drum()), mesh_(soup_.view()), grains_(count) {
@@ -83,7 +85,7 @@ class Drum : public show::Demo {
         show::slider("turns a second", turns_, -2, 2);
         show::slider("restitution", restitution_, 0, 1);
         show::slider("friction", friction_, 0, 2);
-        show::text(summary());
+        show::text(summary() + k_colours);
     }
     [[nodiscard]] std::string summary() const override {
         const auto carried =
@@ -116,8 +118,9 @@ int main(int argc, char** argv) {
     options.view.azimuth = 15;
     std::size_t count = 5000;
     CLI::App app("A turning drum with paddles, full of grains.", "drum");
+    app.footer(k_colours);
+    app.add_option("--grains", count, "How many grains (5000)")->check(CLI::Range(1, 10'000'000))->option_text("N");
     show::add_demo_options(app, options);
-    app.add_option("--grains", count, "How many grains (5000)")->check(CLI::Range(1, 10'000'000));
     CLI11_PARSE(app, argc, argv);
     try {
         return show::run(std::make_unique<Drum>(count), "drum", options);

@@ -82,14 +82,21 @@ int main(int argc, char** argv) {
     std::vector<float> from = {4, 1.5f, 4}, to = {36, 1.5f, 36};
     int turns = 10;
     Scanner scanner;
-    CLI::App app("A spinning lidar is carried through a scene, y up.", "lidar");
-    app.add_option("MESH", mesh_file, "A mesh: OBJ, OFF, PLY or STL; else a hall of 40 x 12 x 40 is made");
-    app.add_option("--from", from, "Where it begins (4,1.5,4)")->delimiter(',')->expected(3);
-    app.add_option("--to", to, "Where it ends (36,1.5,36)")->delimiter(',')->expected(3);
-    app.add_option("--turns", turns, "On its way it turns so often (10)")->check(CLI::Range(1, 1'000'000));
-    app.add_option("--reach", scanner.reach, "Of its rays (100)")->check(CLI::PositiveNumber);
-    app.add_option("--range", range_file, "The last turn as a picture (range.png)");
-    app.add_option("--cloud", cloud_file, "The points of all turns (cloud.ply)");
+    CLI::App app("A spinning lidar is carried through a scene, y up: a picture of distances and a cloud of points.",
+                 "lidar");
+    app.add_option("MESH", mesh_file, "A mesh: OBJ, OFF, PLY or STL; else a hall of 40 x 12 x 40 is made")
+        ->option_text(" ");
+    app.add_option("--from", from, "Where it begins (4,1.5,4)")->delimiter(',')->expected(3)->option_text("X,Y,Z");
+    app.add_option("--to", to, "Where it ends (36,1.5,36)")->delimiter(',')->expected(3)->option_text("X,Y,Z");
+    app.add_option("--turns", turns, "How often it turns on its way (10)")
+        ->check(CLI::Range(1, 1'000'000))
+        ->option_text("N");
+    app.add_option("--reach", scanner.reach, "How far its rays go (100)")
+        ->check(CLI::PositiveNumber)
+        ->option_text("LENGTH");
+    app.add_option("--range", range_file, "The last turn as a PNG picture: brighter is nearer (range.png)")
+        ->option_text("FILE");
+    app.add_option("--cloud", cloud_file, "The points of all turns, as PLY (cloud.ply)")->option_text("FILE");
     CLI11_PARSE(app, argc, argv);
     try {
         const auto soup =

@@ -108,8 +108,8 @@ int run(const pierce::TriangleSoup<double>& soup) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc > 2) {
-        std::cerr << "usage: particles [MESH]\n";
+    if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
+        std::cerr << "usage: particles [MESH]\nMESH: closed, OBJ, OFF, PLY or STL; without one: an octahedron.\n";
         return 2;
     }
     try {

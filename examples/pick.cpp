@@ -33,7 +33,9 @@ Mesh cube() {
 
 int main(int argc, char** argv) {
     if (argc != 1 && argc != 8) {
-        std::cerr << "usage: pick [MESH X Y Z DX DY DZ]\n";
+        std::cerr << "usage: pick [MESH X Y Z DX DY DZ]\n"
+                     "MESH: a file that OpenMesh reads; the ray goes from (X Y Z) into the direction (DX DY DZ).\n"
+                     "Without arguments: a cube, from above.\n";
         return 2;
     }
     Mesh mesh = cube();

@@ -3,6 +3,7 @@
 //   rain [MESH] --picture rain.png       no window: 600 steps, then a picture
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -23,6 +24,9 @@ namespace {
 using Vec3 = Eigen::Vector3f;
 using Move = pierce::Move<float>;
 using pierce::MoveState;
+
+constexpr auto k_colours =
+    "Blue drops fall, green ones have met the mesh, yellow ones rest on it, red ones are wedged.";
 
 class Rain : public show::Demo {
   public:
@@ -87,7 +91,7 @@ class Rain : public show::Demo {
         show::slider("restitution", restitution_, 0, 1);
         show::slider("friction", friction_, 0, 1);
         show::slider("evaporation", evaporation_, 0, 0.05f);
-        show::text(summary());
+        show::text(summary() + k_colours);
     }
 
     [[nodiscard]] std::string summary() const override {
@@ -136,13 +140,16 @@ class Rain : public show::Demo {
 
 int main(int argc, char** argv) {
     show::DemoOptions options;
+    std::filesystem::path mesh;
     std::size_t count = 100'000;
     CLI::App app("Drops fall on a mesh, bounce, slide and come to rest.", "rain");
+    app.footer(k_colours);
+    app.add_option("MESH", mesh, "A closed mesh: OBJ, OFF, PLY or STL; else a bumpy sphere is made")->option_text(" ");
+    app.add_option("--drops", count, "How many drops (100000)")->check(CLI::Range(1, 100'000'000))->option_text("N");
     show::add_demo_options(app, options);
-    app.add_option("--drops", count, "How many drops (100000)")->check(CLI::Range(1, 100'000'000));
     CLI11_PARSE(app, argc, argv);
     try {
-        auto rain = std::make_unique<Rain>(show::mesh_or(options.mesh, show::bumpy_sphere(80)), count);
+        auto rain = std::make_unique<Rain>(show::mesh_or(mesh, show::bumpy_sphere(80)), count);
         return show::run(std::move(rain), "rain", options);
     } catch (const std::exception& error) {
         std::cerr << "rain: " << error.what() << '\n';

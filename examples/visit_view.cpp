@@ -48,6 +48,11 @@ const std::array k_styles = {Style{Reason::apart, {0.25f, 0.25f, 0.25f}, 1},
                              Style{Reason::later, {1, 0.35f, 0}, 2},
                              Style{Reason::first_hit, {0.1f, 0.9f, 0.1f}, 3}};
 
+constexpr auto k_colours =
+    "In the picture: the segment white, the hit a red dot. Boxes on the way: nodes magenta, clusters blue.\n"
+    "Faces near it, by their reasons: first hit green, later orange, passes outside an edge yellow,\n"
+    "stays behind violet, stays in front blue, from the other side teal, in the segment's plane cyan.";
+
 /// Corners of a box have a bit for each axis: 0 is low, 1 is high.
 constexpr std::pair<unsigned, unsigned> k_box_edges[] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
                                                          {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
@@ -191,14 +196,20 @@ int main(int argc, char** argv) {
     show::View view;
     view.azimuth = 70;
     CLI::App app("What a query looked at, and why it hit what it hit.", "visit_view");
-    app.add_option("MESH", mesh_file, "A mesh: OBJ, OFF, PLY or STL; else a bumpy sphere of radius 1 is made");
-    app.add_option("--segment", ends, "From where to where; else through the middle of the mesh")->expected(6);
+    app.footer(k_colours);
+    app.add_option("MESH", mesh_file, "A mesh: OBJ, OFF, PLY or STL; else a bumpy sphere of radius 1 is made")
+        ->option_text(" ");
+    app.add_option("--segment", ends, "From where to where; else through the middle of the mesh")
+        ->expected(6)
+        ->option_text("X Y Z X Y Z");
     app.add_option("--sides", query.options.sides, "Which sides of faces count: front, back or both (front)")
         ->transform(CLI::CheckedTransformer(std::map<std::string, pierce::Sides>{
-            {"front", pierce::Sides::front}, {"back", pierce::Sides::back}, {"both", pierce::Sides::both}}));
-    app.add_option("--max-fraction", query.options.max_fraction, "Hits count up to this fraction of the segment");
-    app.add_option("--picture", picture, "Draw it into this PNG file");
-    app.add_option("--obj", obj, "Write it as lines into this OBJ file");
+            {"front", pierce::Sides::front}, {"back", pierce::Sides::back}, {"both", pierce::Sides::both}}))
+        ->option_text("SIDES");
+    app.add_option("--max-fraction", query.options.max_fraction, "Hits count up to this fraction of the segment")
+        ->option_text("F");
+    app.add_option("--picture", picture, "Draw it into this PNG file")->option_text("FILE");
+    app.add_option("--obj", obj, "Write it as lines into this OBJ file")->option_text("FILE");
     show::add_view_options(app, view);
     CLI11_PARSE(app, argc, argv);
     try {

@@ -64,6 +64,7 @@ void run_in_window(Demo& demo, const std::string& title, const DemoOptions& opti
                 ImGui::SameLine();
                 steps_once = ImGui::Button("Step");
                 demo.panel();
+                ImGui::TextUnformatted("Mouse: left turns, right moves, wheel goes nearer");
             },
             is_last ? &screenshot : nullptr);
         if (is_last) {

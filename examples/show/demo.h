@@ -21,7 +21,6 @@ namespace show {
 
 /// What the command line of a demo says.
 struct DemoOptions {
-    std::filesystem::path mesh;        ///< empty: the demo makes one
     int steps = 600;                   ///< without a window
     std::filesystem::path picture;     ///< of the last step
     std::filesystem::path frames;      ///< a folder for one picture a step
@@ -30,7 +29,7 @@ struct DemoOptions {
     View view;
 };
 
-/// Adds the options above.
+/// Adds the options above; their values are the defaults that `--help` names.
 void add_demo_options(CLI::App& app, DemoOptions& options);
 /// Those of a view alone: size, samples, azimuth and elevation.
 void add_view_options(CLI::App& app, View& view);

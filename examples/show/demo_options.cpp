@@ -1,5 +1,7 @@
 // The command line that all demos have. See demo.h.
+#include <cmath>
 #include <cstdio>
+#include <string>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -9,13 +11,17 @@
 namespace show {
 
 void add_demo_options(CLI::App& app, DemoOptions& options) {
-    app.add_option("MESH", options.mesh, "A mesh: OBJ, OFF, PLY or STL; else one is made");
-    app.add_option("--steps", options.steps, "How many steps without a window (600)")
-        ->check(CLI::Range(0, 1'000'000'000));
-    app.add_option("--picture", options.picture, "No window: draw the last step into this PNG file");
-    app.add_option("--frames", options.frames, "No window: draw each step into a PNG file in this folder");
+    app.add_option("--steps", options.steps,
+                   "How many steps to take without a window (" + std::to_string(options.steps) + ")")
+        ->check(CLI::Range(0, 1'000'000'000))
+        ->option_text("N");
+    app.add_option("--picture", options.picture, "No window: draw the last step into this PNG file")
+        ->option_text("FILE");
+    app.add_option("--frames", options.frames, "No window: draw each step into a PNG file in this folder")
+        ->option_text("FOLDER");
     app.add_flag("--no-window", options.no_window, "No window and no picture, figures only");
-    app.add_option("--screenshot", options.screenshot, "Of the window, after --steps frames; then end");
+    app.add_option("--screenshot", options.screenshot, "Save the window as a PNG file after --steps frames, and end")
+        ->option_text("FILE");
     add_view_options(app, options.view);
 }
 
@@ -27,11 +33,15 @@ void add_view_options(CLI::App& app, View& view) {
                       view.height > 0 && view.width <= 10'000 && view.height <= 10'000;
            },
            "Pixels (800x600)")
-        ->type_name("WxH");
-    app.add_option("--samples", view.samples, "N times N samples a pixel, for smooth edges (1)")
-        ->check(CLI::Range(1, 8));
-    app.add_option("--azimuth", view.azimuth, "Where to look from, in degrees");
-    app.add_option("--elevation", view.elevation, "The same, above the horizon");
+        ->option_text("WxH");
+    app.add_option("--samples", view.samples, "N times N samples a pixel, for smooth edges, N from 1 to 8 (1)")
+        ->check(CLI::Range(1, 8))
+        ->option_text("N");
+    const auto degrees = [](double angle) { return " (" + std::to_string(std::lround(angle)) + ")"; };
+    app.add_option("--azimuth", view.azimuth, "Where to look from, in degrees" + degrees(view.azimuth))
+        ->option_text("DEGREES");
+    app.add_option("--elevation", view.elevation, "The same, above the horizon" + degrees(view.elevation))
+        ->option_text("DEGREES");
 }
 
 pierce::TriangleSoup<float> mesh_or(const std::filesystem::path& mesh, pierce::TriangleSoup<float> made) {

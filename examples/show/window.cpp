@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <map>
 #include <stdexcept>
 #include <vector>
 
@@ -52,6 +52,21 @@ void draw_marks(const std::vector<Mark>& marks, GLenum mode) {
     glDisableClientState(GL_VERTEX_ARRAY);
 }
 
+/// Round, and as large as they are in the middle of the mesh, where a unit is `pixels` long; small ones can be seen.
+void draw_dots(std::span<const Dot> dots, double pixels) {
+    std::map<double, std::vector<Mark>> marks;  // of each radius
+    for (const Dot& dot : dots) marks[dot.radius].push_back(mark(dot.place, dot.colour));
+    glEnable(GL_POINT_SMOOTH);
+    glEnable(GL_ALPHA_TEST);
+    glAlphaFunc(GL_GREATER, 0.5f);
+    for (const auto& [radius, same] : marks) {
+        glPointSize(static_cast<float>(std::max(2 * radius * pixels, 2.0)));
+        draw_marks(same, GL_POINTS);
+    }
+    glDisable(GL_ALPHA_TEST);
+    glDisable(GL_POINT_SMOOTH);
+}
+
 /// The frame that is about to be shown, its rows turned over: OpenGL has the lowest first.
 Image what_is_seen(int width, int height) {
     Image image{width, height, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width * height))};
@@ -86,8 +101,8 @@ struct Window::Impl {
         view.zoom *= std::pow(1.1, static_cast<double>(io.MouseWheel));
     }
 
-    /// The camera of the pictures, as OpenGL takes one.
-    void set_camera(int width, int height) {
+    /// The camera of the pictures, as OpenGL takes one. Returns how many pixels a unit has in the middle of the mesh.
+    double set_camera(int width, int height) {
         view.width = std::max(width, 1);
         view.height = std::max(height, 1);
         std::vector<Point> corners;
@@ -108,6 +123,8 @@ struct Window::Impl {
         to_camera.linear() = camera.axes().transpose();
         to_camera.translation() = -(camera.axes().transpose() * camera.eye());
         glMultMatrixd(to_camera.data());
+        const double distance = camera.project(box.isEmpty() ? Point::Zero() : Point(box.center())).z();
+        return distance > 0 ? 0.5 * view.height / (camera.tangent().y() * distance) : 0;
     }
 
     void draw_mesh() const {
@@ -202,14 +219,11 @@ void Window::frame(std::span<const Dot> dots, std::span<const Line> lines, const
     glClearColor(0.35f, 0.37f, 0.4f, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
-    impl_->set_camera(width, height);
+    const double pixels = impl_->set_camera(width, height);
     impl_->draw_mesh();
 
+    draw_dots(dots, pixels);
     std::vector<Mark> marks;
-    marks.reserve(dots.size());
-    for (const Dot& dot : dots) marks.push_back(mark(dot.place, dot.colour));
-    glPointSize(2);
-    draw_marks(marks, GL_POINTS);
     for (const bool on_top : {false, true}) {
         marks.clear();
         for (const Line& line : lines)

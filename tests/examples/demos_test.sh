@@ -48,8 +48,14 @@ picture drum.png 20000
 
 # A ball that walks is not held up by the seams of the floor, and overlaps nothing: else its status is not 0.
 run character --picture character.png --size 320x240
-prints "900 steps, [0-9]+ contacts in the last one, clear"
+prints "900 steps, [0-9]+ contacts in the last one, no overlap"
 picture character.png 5000
+
+# A file that a demo would not read is no argument of it.
+for demo in bullets drum character; do
+    what="$demo level.obj"
+    timeout 100 "$programs/$demo" level.obj --no-window --steps 0 >out 2>err </dev/null && fail "$what: is taken"
+done
 
 run lidar --turns 2
 prints "131072 of 131072 rays came back, .* million rays a second"
