@@ -1,0 +1,93 @@
+// See ranks.h. Errors of MPI itself end the program, as MPI does unless told otherwise.
+#include "mpi_tracking/ranks.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <iostream>
+#include <stdexcept>
+#include <vector>
+
+namespace tracking {
+
+namespace {
+
+/// In parts, for MPI counts in int.
+template <class Element>
+void broadcast_elements(std::vector<Element>& elements) {
+    std::uint64_t size = elements.size();
+    broadcast(size);
+    elements.resize(size);
+    auto* bytes = reinterpret_cast<std::byte*>(elements.data());
+    constexpr std::size_t k_part = std::size_t{1} << 30;
+    for (std::size_t left = size * sizeof(Element), part = 0; left > 0; left -= part, bytes += part) {
+        part = std::min(left, k_part);
+        MPI_Bcast(bytes, static_cast<int>(part), MPI_BYTE, 0, MPI_COMM_WORLD);
+    }
+}
+
+}  // namespace
+
+Ranks::Ranks(int& argc, char**& argv) {
+    int provided = 0;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);
+    if (provided < MPI_THREAD_SERIALIZED) throw std::runtime_error("this MPI can't be called from several threads");
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+}
+
+Ranks::~Ranks() { MPI_Finalize(); }
+
+void Ranks::end_all(const std::string& why) {
+    std::cerr << "mpi_tracking: " << why << std::endl;
+    MPI_Abort(MPI_COMM_WORLD, 2);
+    std::abort();  // MPI_Abort does not return, but does not say so
+}
+
+void broadcast(std::uint64_t& number) { MPI_Bcast(&number, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD); }
+
+void broadcast(pierce::TriangleSoup<double>& soup) {
+    static_assert(sizeof(pierce::Vec3<double>) == 3 * sizeof(double));
+    broadcast_elements(soup.positions);
+    broadcast_elements(soup.triangles);
+    broadcast_elements(soup.faces);
+}
+
+void sum(std::span<const std::uint64_t> mine, std::span<std::uint64_t> total) {
+    // A mesh has fewer than 2^28 faces, so the count fits.
+    MPI_Reduce(mine.data(), total.data(), static_cast<int>(mine.size()), MPI_UINT64_T, MPI_SUM, 0, MPI_COMM_WORLD);
+}
+
+double sum(double mine) {
+    double total = 0;
+    MPI_Reduce(&mine, &total, 1, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
+    return total;
+}
+
+WorkCounter::WorkCounter(std::uint64_t first) {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    const MPI_Aint bytes = rank == 0 ? sizeof *next_ : 0;
+    MPI_Win_allocate(bytes, sizeof *next_, MPI_INFO_NULL, MPI_COMM_WORLD, &next_, &window_);
+    MPI_Win_lock_all(0, window_);
+    if (rank == 0) {
+        *next_ = first;
+        MPI_Win_sync(window_);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+}
+
+WorkCounter::~WorkCounter() {
+    MPI_Win_unlock_all(window_);
+    MPI_Win_free(&window_);
+}
+
+std::uint64_t WorkCounter::take(std::uint64_t count) {
+    const std::lock_guard lock(mutex_);
+    std::uint64_t first = 0;
+    MPI_Fetch_and_op(&count, &first, MPI_UINT64_T, 0, 0, MPI_SUM, window_);
+    MPI_Win_flush(0, window_);
+    return first;
+}
+
+}  // namespace tracking
