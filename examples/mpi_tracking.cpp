@@ -33,8 +33,9 @@ struct Options {
     std::filesystem::path mesh;
     Physics physics;
     std::uint64_t particles = 1'000'000;
-    std::uint64_t batch = 4096;
+    std::uint64_t batch = 1024;
     unsigned threads = 1;
+    bool check_all = false;
     std::filesystem::path checkpoint;
     double seconds = 60;
     std::filesystem::path faces;
@@ -48,9 +49,11 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--most-hits", options.physics.most_hits, "After which a particle is stopped (1000)")
         ->check(CLI::Range(1, 1'000'000'000));
     app.add_option("--seed", options.physics.seed, "Another one, other particles (1)");
-    app.add_option("--batch", options.batch, "Particles that a thread takes at a time (4096)")
+    app.add_option("--batch", options.batch, "Particles that a thread takes at a time (1024)")
         ->check(CLI::Range(1, 1'000'000));
     app.add_option("--threads", options.threads, "For each rank (1)")->check(CLI::Range(1, 1024));
+    app.add_flag("--check", options.check_all,
+                 "Ask after every flight whether the particle is in the mesh, not only in the end");
     app.add_option("--checkpoint", options.checkpoint, "A file: go on from it if it is there, and keep it up to date");
     app.add_option("--every", options.seconds, "Seconds from one checkpoint to the next (60)")
         ->check(CLI::PositiveNumber);
@@ -119,7 +122,7 @@ Times fly_all(const Ranks& ranks, const Options& options, const RunIdentity& run
     std::uint64_t done = total[Sum::particles];
     broadcast(done);
     WorkCounter counter(done);
-    std::vector<Flights> flights(options.threads, Flights(mesh, vessel, options.physics));
+    std::vector<Flights> flights(options.threads, Flights(mesh, vessel, options.physics, options.check_all));
     std::vector<Tallies> tallies(options.threads, Tallies(total.faces()));
     Tallies round(total.faces());
     const bool has_checkpoint = !options.checkpoint.empty();
@@ -138,9 +141,9 @@ Times fly_all(const Ranks& ranks, const Options& options, const RunIdentity& run
         }
         broadcast(done);
         if (!ranks.is_first() || !has_checkpoint) continue;
-        std::cerr << done << " of " << options.particles << " particles are done\n";
         try {
             write_checkpoint(options.checkpoint, run, total);
+            std::cerr << done << " of " << options.particles << " particles are done and kept\n";
         } catch (const std::exception& error) {
             std::cerr << "mpi_tracking: " << error.what() << "; the run goes on without a new checkpoint\n";
         }

@@ -7,11 +7,13 @@
 
 namespace tracking {
 
-Flights::Flights(const pierce::CollisionMesh<double>& mesh, const Vessel& vessel, const Physics& physics)
+Flights::Flights(const pierce::CollisionMesh<double>& mesh, const Vessel& vessel, const Physics& physics,
+                 bool check_all)
     : mesh_(mesh),
       vessel_(vessel),
       physics_(physics),
-      sticks_below_(static_cast<std::uint64_t>(physics.sticking * 0x1p32)) {}
+      sticks_below_(static_cast<std::uint64_t>(physics.sticking * 0x1p32)),
+      check_all_(check_all) {}
 
 void Flights::fly(std::uint64_t first, std::uint64_t count, Tallies& tallies) {
     start(first, count);
@@ -24,13 +26,15 @@ void Flights::fly(std::uint64_t first, std::uint64_t count, Tallies& tallies) {
                                         {flying_[0].direction.data(), n, sizeof(Particle)});
         mesh_.first_hits(rays, std::span(hits_).first(n), {.sides = pierce::Sides::both});
         for (std::size_t i = 0; i < n; ++i) meet(flying_[i], hits_[i], tallies);
+        if (check_all_) count_outside(flying_, tallies);
         std::erase_if(flying_, [this](const Particle& particle) {
             if (particle.end == End::none) return false;
             ended_.push_back(particle);
             return true;
         });
     }
-    count_ends(tallies);
+    if (!check_all_) count_outside(ended_, tallies);
+    for (const Particle& particle : ended_) count_end(particle, tallies);
 }
 
 /// All from the walls, evenly. So they are a gas in equilibrium from their first flight on, whatever the vessel's shape:
@@ -89,25 +93,25 @@ void Flights::meet(Particle& particle, const pierce::Hit<double>& hit, Tallies& 
     }
 }
 
-void Flights::count_ends(Tallies& tallies) {
-    const std::size_t n = ended_.size();
-    mesh_.locate_points({ended_[0].position.data(), n, sizeof(Particle)}, std::span(locations_).first(n));
-    for (std::size_t i = 0; i < n; ++i) {
-        const Particle& particle = ended_[i];
-        ++tallies[Sum::particles];
-        tallies[Sum::absorbed] += particle.end == End::absorbed;
-        tallies[Sum::stopped] += particle.end == End::stopped;
-        tallies[Sum::lost] += particle.end == End::lost;
-        tallies[Sum::outside] += locations_[i].place != pierce::Place::inside;
-        Hash hash;
-        hash.add(particle.stream.particle);
-        hash.add(std::uint64_t{particle.stream.drawn});
-        hash.add(particle.hits);
-        hash.add(static_cast<std::uint64_t>(particle.end));
-        for (int k = 0; k < 3; ++k) hash.add(particle.position[k]);
-        tallies[Sum::hash_low] += hash.low;
-        tallies[Sum::hash_high] += hash.high;
-    }
+void Flights::count_outside(const std::vector<Particle>& particles, Tallies& tallies) {
+    const std::span<pierce::Location> locations = std::span(locations_).first(particles.size());
+    mesh_.locate_points({particles[0].position.data(), particles.size(), sizeof(Particle)}, locations);
+    for (const pierce::Location& location : locations) tallies[Sum::outside] += location.place != pierce::Place::inside;
+}
+
+void Flights::count_end(const Particle& particle, Tallies& tallies) const {
+    ++tallies[Sum::particles];
+    tallies[Sum::absorbed] += particle.end == End::absorbed;
+    tallies[Sum::stopped] += particle.end == End::stopped;
+    tallies[Sum::lost] += particle.end == End::lost;
+    Hash hash;
+    hash.add(particle.stream.particle);
+    hash.add(std::uint64_t{particle.stream.drawn});
+    hash.add(particle.hits);
+    hash.add(static_cast<std::uint64_t>(particle.end));
+    for (int k = 0; k < 3; ++k) hash.add(particle.position[k]);
+    tallies[Sum::hash_low] += hash.low;
+    tallies[Sum::hash_high] += hash.high;
 }
 
 }  // namespace tracking

@@ -24,8 +24,9 @@ struct Physics {
 /// Flies batches of particles. One for each thread: it keeps their memory; all may share a mesh.
 class Flights {
   public:
-    /// `mesh`: that of the vessel, which must be closed. Both must outlive this.
-    Flights(const pierce::CollisionMesh<double>& mesh, const Vessel& vessel, const Physics& physics);
+    /// `mesh`: that of the vessel, which must be closed. Both must outlive this. `check_all`: ask after every flight
+    /// whether the particle is in the mesh, not only in the end.
+    Flights(const pierce::CollisionMesh<double>& mesh, const Vessel& vessel, const Physics& physics, bool check_all);
 
     /// Flies the particles of these numbers to their ends, and adds what became of them. Throws std::runtime_error
     /// where there is hardly a place to start from.
@@ -44,12 +45,14 @@ class Flights {
     void start(std::uint64_t first, std::uint64_t count);
     void leave(Particle& particle, const Vec3& normal, Words words) const;
     void meet(Particle& particle, const pierce::Hit<double>& hit, Tallies& tallies) const;
-    void count_ends(Tallies& tallies);
+    void count_outside(const std::vector<Particle>& particles, Tallies& tallies);
+    void count_end(const Particle& particle, Tallies& tallies) const;
 
     const pierce::CollisionMesh<double>& mesh_;
     const Vessel& vessel_;
     Physics physics_;
     std::uint64_t sticks_below_;
+    bool check_all_;
     std::vector<Particle> flying_, ended_;
     std::vector<pierce::Hit<double>> hits_;
     std::vector<pierce::Location> locations_;
