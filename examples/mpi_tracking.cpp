@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iostream>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -23,6 +24,7 @@
 #include "mpi_tracking/ranks.h"
 #include "mpi_tracking/tallies.h"
 #include "mpi_tracking/vessel.h"
+#include "mpi_tracking/work.h"
 #include "show/shapes.h"
 
 namespace {
@@ -87,17 +89,15 @@ double cpu_seconds() {
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Flies what others have not taken, on all threads of this rank, until the particles are used up or the time is.
-void fly_until(double end, const Options& options, WorkCounter& counter, std::vector<Flights>& flights,
-               std::vector<Tallies>& tallies, Times& times) {
+/// Flies on all threads of this rank until the round is over, and sums up in the first one's tallies. Returns the
+/// seconds that the threads were flying.
+double fly_round(Work& work, std::vector<Flights>& flights, std::vector<Tallies>& tallies) {
     std::vector<double> seconds(flights.size());
-    const auto work = [&](std::size_t thread) {
+    const auto fly = [&](std::size_t thread) {
         try {
-            while (MPI_Wtime() < end) {
-                const std::uint64_t first = counter.take(options.batch);
-                if (first >= options.particles) break;
+            for (auto part = work.take(); part.count > 0; part = work.take()) {
                 const double start = cpu_seconds();
-                flights[thread].fly(first, std::min(options.batch, options.particles - first), tallies[thread]);
+                flights[thread].fly(part.first, part.count, tallies[thread]);
                 seconds[thread] += cpu_seconds() - start;
             }
         } catch (const std::exception& error) {
@@ -106,14 +106,14 @@ void fly_until(double end, const Options& options, WorkCounter& counter, std::ve
     };
     {
         std::vector<std::jthread> helpers;
-        for (std::size_t i = 1; i < flights.size(); ++i) helpers.emplace_back(work, i);
-        work(0);
+        for (std::size_t i = 1; i < flights.size(); ++i) helpers.emplace_back(fly, i);
+        fly(0);
     }
-    for (const double part : seconds) times.flying += part;
     for (std::size_t i = 1; i < tallies.size(); ++i) {
         tallies[0] += tallies[i];
         tallies[i].clear();
     }
+    return std::accumulate(seconds.begin(), seconds.end(), 0.0);
 }
 
 /// Flies all particles that are not in `total` yet, and adds them there on rank 0; `total` means nothing on others.
@@ -121,7 +121,7 @@ Times fly_all(const Ranks& ranks, const Options& options, const RunIdentity& run
               const pierce::CollisionMesh<double>& mesh, const Vessel& vessel, Tallies& total) {
     std::uint64_t done = total[Sum::particles];
     broadcast(done);
-    WorkCounter counter(done);
+    Work work(ranks, done, options.particles, options.batch, options.threads);
     std::vector<Flights> flights(options.threads, Flights(mesh, vessel, options.physics, options.check_all));
     std::vector<Tallies> tallies(options.threads, Tallies(total.faces()));
     Tallies round(total.faces());
@@ -129,10 +129,10 @@ Times fly_all(const Ranks& ranks, const Options& options, const RunIdentity& run
     Times times;
     const double start = MPI_Wtime();
     while (done < options.particles) {
-        // When the time is up no rank takes more, and all finish what they have: so those that are done are the first
-        // ones, without a gap, though nobody has asked who flies which.
-        const double end = has_checkpoint ? MPI_Wtime() + options.seconds : std::numeric_limits<double>::infinity();
-        fly_until(end, options, counter, flights, tallies, times);
+        work.begin(has_checkpoint ? options.seconds : std::numeric_limits<double>::infinity());
+        times.flying += fly_round(work, flights, tallies);
+        work.end();
+        // All finish what they have been given. So those that are done are the first ones, without a gap.
         sum(tallies[0].words(), round.words());
         tallies[0].clear();
         if (ranks.is_first()) {

@@ -64,30 +64,4 @@ double sum(double mine) {
     return total;
 }
 
-WorkCounter::WorkCounter(std::uint64_t first) {
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    const MPI_Aint bytes = rank == 0 ? sizeof *next_ : 0;
-    MPI_Win_allocate(bytes, sizeof *next_, MPI_INFO_NULL, MPI_COMM_WORLD, &next_, &window_);
-    MPI_Win_lock_all(0, window_);
-    if (rank == 0) {
-        *next_ = first;
-        MPI_Win_sync(window_);
-    }
-    MPI_Barrier(MPI_COMM_WORLD);
-}
-
-WorkCounter::~WorkCounter() {
-    MPI_Win_unlock_all(window_);
-    MPI_Win_free(&window_);
-}
-
-std::uint64_t WorkCounter::take(std::uint64_t count) {
-    const std::lock_guard lock(mutex_);
-    std::uint64_t first = 0;
-    MPI_Fetch_and_op(&count, &first, MPI_UINT64_T, 0, 0, MPI_SUM, window_);
-    MPI_Win_flush(0, window_);
-    return first;
-}
-
 }  // namespace tracking

@@ -1,10 +1,9 @@
-// What passes between the ranks: the mesh once, then numbers of particles to fly, and from time to time their tallies.
+// The ranks, and what all of them do together: the mesh is given to all once, and tallies are summed from time to time.
 #pragma once
 
 #include <mpi.h>
 
 #include <cstdint>
-#include <mutex>
 #include <span>
 #include <string>
 
@@ -39,23 +38,5 @@ void broadcast(std::uint64_t& number);
 /// Sums in `total`, on rank 0 only.
 void sum(std::span<const std::uint64_t> mine, std::span<std::uint64_t> total);
 double sum(double mine);
-
-/// Hands out numbers of particles, each once, to the threads of all ranks: a number on rank 0 that all others add to
-/// without asking that rank. Made and destroyed by all ranks together.
-class WorkCounter {
-  public:
-    explicit WorkCounter(std::uint64_t first);
-    ~WorkCounter();
-    WorkCounter(const WorkCounter&) = delete;
-    WorkCounter& operator=(const WorkCounter&) = delete;
-
-    /// The first one of the next `count` numbers. From any thread.
-    std::uint64_t take(std::uint64_t count);
-
-  private:
-    std::mutex mutex_;
-    MPI_Win window_ = MPI_WIN_NULL;
-    std::uint64_t* next_ = nullptr;
-};
 
 }  // namespace tracking
