@@ -7,6 +7,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <iostream>
 #include <limits>
 #include <numeric>
@@ -116,16 +117,26 @@ double fly_round(Work& work, std::vector<Flights>& flights, std::vector<Tallies>
     return std::accumulate(seconds.begin(), seconds.end(), 0.0);
 }
 
-/// Flies all particles that are not in `total` yet, and adds them there on rank 0; `total` means nothing on others.
+/// Flies all particles that are not in `total` yet, and adds them there on rank 0; others need no room in `total`.
 Times fly_all(const Ranks& ranks, const Options& options, const RunIdentity& run,
               const pierce::CollisionMesh<double>& mesh, const Vessel& vessel, Tallies& total) {
     std::uint64_t done = total[Sum::particles];
     broadcast(done);
     Work work(ranks, done, options.particles, options.batch, options.threads);
     std::vector<Flights> flights(options.threads, Flights(mesh, vessel, options.physics, options.check_all));
-    std::vector<Tallies> tallies(options.threads, Tallies(total.faces()));
+    std::vector<Tallies> tallies(options.threads, Tallies(vessel.soup().face_count()));
     Tallies round(total.faces());
     const bool has_checkpoint = !options.checkpoint.empty();
+    // A thread of its own on rank 0 writes files, so that nobody waits for the disk. `total` stays as it is meanwhile.
+    const auto keep = [&] {
+        try {
+            write_checkpoint(options.checkpoint, run, total);
+            std::cerr << total[Sum::particles] << " of " << options.particles << " particles are done and kept\n";
+        } catch (const std::exception& error) {
+            std::cerr << "mpi_tracking: " << error.what() << "; the run goes on without a new checkpoint\n";
+        }
+    };
+    std::future<void> writing;
     Times times;
     const double start = MPI_Wtime();
     while (done < options.particles) {
@@ -135,19 +146,15 @@ Times fly_all(const Ranks& ranks, const Options& options, const RunIdentity& run
         // All finish what they have been given. So those that are done are the first ones, without a gap.
         sum(tallies[0].words(), round.words());
         tallies[0].clear();
+        if (writing.valid()) writing.wait();
         if (ranks.is_first()) {
             total += round;
             done = total[Sum::particles];
         }
         broadcast(done);
-        if (!ranks.is_first() || !has_checkpoint) continue;
-        try {
-            write_checkpoint(options.checkpoint, run, total);
-            std::cerr << done << " of " << options.particles << " particles are done and kept\n";
-        } catch (const std::exception& error) {
-            std::cerr << "mpi_tracking: " << error.what() << "; the run goes on without a new checkpoint\n";
-        }
+        if (ranks.is_first() && has_checkpoint) writing = std::async(std::launch::async, keep);
     }
+    if (writing.valid()) writing.wait();
     times.all = MPI_Wtime() - start;
     return times;
 }
@@ -178,7 +185,7 @@ int run(const Ranks& ranks, const Options& options) {
     const double built = MPI_Wtime();
 
     const RunIdentity identity{vessel.hash(), options.physics};
-    Tallies total(vessel.soup().face_count());
+    Tallies total(ranks.is_first() ? vessel.soup().face_count() : 0);
     if (ranks.is_first()) {
         if (!mesh.mesh_report().closed()) throw std::runtime_error("the mesh is not closed");
         if (const auto kept = read_checkpoint(options.checkpoint, identity, total.faces())) total = *kept;
@@ -194,9 +201,11 @@ int run(const Ranks& ranks, const Options& options) {
     const Times times = fly_all(ranks, options, identity, mesh, vessel, total);
     const double flying = sum(times.flying), all = sum(times.all);
     if (!ranks.is_first()) return 0;
-    std::cout << "time       " << times.all << " s, "
-              << flying * 1e9 / static_cast<double>(total[Sum::flights] - flights_before)
-              << " ns a flight and thread, threads waited " << 100 * (1 - flying / (all * options.threads)) << " %\n";
+    const auto flights = static_cast<double>(total[Sum::flights] - flights_before);
+    if (flights > 0)
+        std::cout << "time       " << times.all << " s, " << flying * 1e9 / flights
+                  << " ns of a processor for a flight; threads did not fly for "
+                  << 100 * (1 - flying / (all * options.threads)) << " % of the time\n";
     print(vessel, total);
     if (!options.faces.empty()) write_faces(options.faces, total);
     return total[Sum::lost] + total[Sum::outside] == 0 ? 0 : 1;

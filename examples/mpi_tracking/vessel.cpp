@@ -35,7 +35,7 @@ Vessel::Vessel(pierce::TriangleSoup<double> soup) : soup_(std::move(soup)) {
         throw std::runtime_error("the mesh has no inside, or one that can't be measured");
     const int exponent = std::ilogb(std::sqrt(squared_length(box.diagonal())));
     hair_ = std::ldexp(volume_ > 0 ? 1.0 : -1.0, exponent - 32);
-    length_unit_ = std::ldexp(1.0, exponent - 24);
+    length_unit_ = std::ldexp(1.0, exponent - 16);
 }
 
 Vec3 Vessel::normal_of(const pierce::IndexTriple& triangle) const {

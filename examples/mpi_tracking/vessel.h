@@ -21,7 +21,8 @@ class Vessel {
     [[nodiscard]] Hash hash() const;
     /// Four times the volume by the surface: the mean way from wall to wall of a gas in equilibrium, whatever the shape.
     [[nodiscard]] double mean_chord() const;
-    /// Lengths are counted in this: a power of two, so that a division by it is exact.
+    /// Lengths are counted in this, some 100,000th of the mesh's size: 10^13 flights fit into 64 bits. A power of two,
+    /// so that a division by it is exact.
     [[nodiscard]] double length_unit() const { return length_unit_; }
 
     /// A place on a wall, and the direction away from it into the vessel.
