@@ -66,13 +66,15 @@ void add_options(CLI::App& app, Options& options) {
 /// That of rank 0, which alone reads the file.
 Vessel read_vessel(const Ranks& ranks, const Options& options) {
     pierce::TriangleSoup<double> soup;
-    if (ranks.is_first() && !options.mesh.empty()) {
-        soup = pierce::read_mesh<double>(options.mesh);
-    } else if (ranks.is_first()) {
+    ranks.first_does([&] {
+        if (!options.mesh.empty()) {
+            soup = pierce::read_mesh<double>(options.mesh);
+            return;
+        }
         const pierce::TriangleSoup<float> made = show::bumpy_sphere(80);
         for (const Eigen::Vector3f& position : made.positions) soup.positions.push_back(position.cast<double>());
         soup.triangles = made.triangles;
-    }
+    });
     broadcast(soup);
     return Vessel(std::move(soup));
 }
@@ -186,8 +188,9 @@ int run(const Ranks& ranks, const Options& options) {
 
     const RunIdentity identity{vessel.hash(), options.physics};
     Tallies total(ranks.is_first() ? vessel.soup().face_count() : 0);
-    if (ranks.is_first()) {
+    ranks.first_does([&] {
         if (!mesh.mesh_report().closed()) throw std::runtime_error("the mesh is not closed");
+        if (!vessel.has_inside()) throw std::runtime_error("the mesh has no inside");
         if (const auto kept = read_checkpoint(options.checkpoint, identity, total.faces())) total = *kept;
         if (total[Sum::particles] > options.particles)
             throw std::runtime_error("the checkpoint has more than --particles already");
@@ -196,7 +199,7 @@ int run(const Ranks& ranks, const Options& options) {
                   << "ranks      " << ranks.size() << " of " << options.threads << " threads, from particle "
                   << total[Sum::particles] << " on\n"
                   << std::flush;
-    }
+    });
     const std::uint64_t flights_before = total[Sum::flights];
     const Times times = fly_all(ranks, options, identity, mesh, vessel, total);
     const double flying = sum(times.flying), all = sum(times.all);
@@ -226,6 +229,8 @@ int main(int argc, char** argv) {
     }
     try {
         return run(ranks, options);
+    } catch (const Ranks::Failed&) {
+        return ranks.is_first() ? 2 : 0;  // one status is enough for mpirun
     } catch (const std::exception& error) {
         Ranks::end_all(error.what());
     }

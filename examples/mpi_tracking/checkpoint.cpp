@@ -25,8 +25,9 @@ namespace {
 
 using Word = std::uint64_t;
 
-constexpr Word k_magic =
-    0x6b63'6568'6370'6d01;         // "mpchec" and the format's number; reversed on a machine that is not ours
+// "mpchec" and the number of the format, to be raised where tallies or physics mean something else. On a machine of the
+// other byte order it is another number.
+constexpr Word k_magic = 0x6b63'6568'6370'6d01;
 constexpr std::size_t k_hash = 2;  // words, at the end
 
 /// The head in the order of the file, each word with what it says, for messages. The first two are checked before all.

@@ -2,10 +2,12 @@
 #include "mpi_tracking/ranks.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdlib>
 #include <iostream>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace tracking {
@@ -38,8 +40,11 @@ Ranks::Ranks(int& argc, char**& argv) {
 
 Ranks::~Ranks() { MPI_Finalize(); }
 
+void Ranks::say(const std::string& what) { std::cerr << "mpi_tracking: " << what << std::endl; }
+
 void Ranks::end_all(const std::string& why) {
-    std::cerr << "mpi_tracking: " << why << std::endl;
+    say(why);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));  // mpirun may drop what it has not passed on by then
     MPI_Abort(MPI_COMM_WORLD, 2);
     std::abort();  // MPI_Abort does not return, but does not say so
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 namespace tracking {
@@ -31,8 +30,6 @@ Vessel::Vessel(pierce::TriangleSoup<double> soup) : soup_(std::move(soup)) {
         areas_.push_back(area);
         volume_ += dot(soup_.positions[triangle[0]] - center, normal);
     }
-    if (!(area > 0) || !(std::abs(volume_) > 0) || !std::isfinite(area + volume_))
-        throw std::runtime_error("the mesh has no inside, or one that can't be measured");
     const int exponent = std::ilogb(std::sqrt(squared_length(box.diagonal())));
     hair_ = std::ldexp(volume_ > 0 ? 1.0 : -1.0, exponent - 32);
     length_unit_ = std::ldexp(1.0, exponent - 16);
@@ -41,6 +38,10 @@ Vessel::Vessel(pierce::TriangleSoup<double> soup) : soup_(std::move(soup)) {
 Vec3 Vessel::normal_of(const pierce::IndexTriple& triangle) const {
     const Vec3& a = soup_.positions[triangle[0]];
     return cross(soup_.positions[triangle[1]] - a, soup_.positions[triangle[2]] - a);
+}
+
+bool Vessel::has_inside() const {
+    return !areas_.empty() && areas_.back() > 0 && std::abs(volume_) > 0 && std::isfinite(areas_.back() + volume_);
 }
 
 Hash Vessel::hash() const {

@@ -13,10 +13,11 @@ namespace tracking {
 
 class Vessel {
   public:
-    /// Throws std::runtime_error where the walls have no area or there is no volume between them.
     explicit Vessel(pierce::TriangleSoup<double> soup);
 
     [[nodiscard]] const pierce::TriangleSoup<double>& soup() const { return soup_; }
+    /// Whether there is a volume between walls with an area, as far as doubles can tell.
+    [[nodiscard]] bool has_inside() const;
     /// Of the mesh as it is, bit by bit.
     [[nodiscard]] Hash hash() const;
     /// Four times the volume by the surface: the mean way from wall to wall of a gas in equilibrium, whatever the shape.
