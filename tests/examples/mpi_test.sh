@@ -81,8 +81,8 @@ run_ok "" 2 "$mesh" "${few[@]}" --seed 2
 run_ok "" 2 --particles 20000 # without a mesh: one is made
 
 # Killed twice, rank 2 of 4 and rank 0 of 3, then to the end with 2: the hash of a run that nobody killed.
-many=(--particles 400000 --checkpoint run.ckpt --every 0.05)
-run_ok "" 1 "$mesh" --particles 400000
+many=(--particles 300000 --checkpoint run.ckpt --every 0.05)
+run_ok "" 1 "$mesh" --particles 300000
 whole=$(hash_of_run)
 
 # kill_one RANKS RANK COUNT: once a checkpoint has so many particles.
@@ -104,15 +104,15 @@ kill_one() {
 }
 begins_at() { sed -n 's/^ranks .* from particle \([0-9]*\) on$/\1/p' out; }
 
-kill_one 4 2 80000
-kill_one 3 0 200000
+kill_one 4 2 60000
+kill_one 3 0 150000
 second=$(begins_at)
 echo "torn" >run.ckpt.new # as if killed while it wrote
 run_ok "$whole" 2 "$mesh" "${many[@]}"
 third=$(begins_at)
-[ "$second" -ge 80000 ] && [ "$third" -ge 200000 ] && [ "$third" -lt 400000 ] ||
+[ "$second" -ge 60000 ] && [ "$third" -ge 150000 ] && [ "$third" -lt 300000 ] ||
     fail "went on at particles $second and $third"
-echo "killed at some time after particles $second and $third of 400000"
+echo "killed at some time after particles $second and $third of 300000"
 [ ! -e run.ckpt.new ] || fail "left run.ckpt.new"
 run_ok "$whole" 4 "$mesh" "${many[@]}" # nothing is left to do
 
