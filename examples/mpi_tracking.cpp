@@ -1,8 +1,8 @@
 // A long run of particles through a closed vessel, on as many processes as there are (MPI), of as many threads each:
 //   mpirun -n 4 mpi_tracking MESH --particles 10000000 --checkpoint run.ckpt
-// After a crash the same command goes on from run.ckpt, also with another number of ranks. The result, and the hash that
-// is printed, are those of one rank that is never interrupted, to the last bit. Ends with status 0, with 1 if a particle
-// left the mesh, with 2 for an error. examples/guide/mpi.md says more.
+// After a crash the same command goes on from run.ckpt, also with another number of ranks. The result, and the hash
+// that is printed, are those of one rank that is never interrupted, to the last bit. Ends with status 0, with 1 if a
+// particle left the mesh, with 2 for an error. examples/guide/mpi.md says more.
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
@@ -196,7 +196,7 @@ int run(const Ranks& ranks, const Options& options) {
             throw std::runtime_error("the checkpoint has more than --particles already");
         std::cout << "mesh       " << total.faces() << " faces, closed, read and built in " << built - start << " s, "
                   << static_cast<double>(mesh.statistics().bytes) * 1e-6 << " MB a rank\n"
-                  << "ranks      " << ranks.size() << " of " << options.threads << " threads, from particle "
+                  << "ranks      " << ranks.size() << ", threads of each " << options.threads << ", from particle "
                   << total[Sum::particles] << " on\n"
                   << std::flush;
     });

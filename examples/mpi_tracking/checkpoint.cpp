@@ -1,5 +1,5 @@
-// See checkpoint.h. The file is an array of 64-bit words in the machine's byte order: a head, the tallies, and a hash of
-// all that comes before it.
+// See checkpoint.h. The file is an array of 64-bit words in the machine's byte order: a head, the tallies, and a hash
+// of all that comes before it.
 #include "mpi_tracking/checkpoint.h"
 
 #include <fcntl.h>

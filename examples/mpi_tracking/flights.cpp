@@ -37,8 +37,8 @@ void Flights::fly(std::uint64_t first, std::uint64_t count, Tallies& tallies) {
     for (const Particle& particle : ended_) count_end(particle, tallies);
 }
 
-/// All from the walls, evenly. So they are a gas in equilibrium from their first flight on, whatever the vessel's shape:
-/// they hit walls in proportion to their area, and the mean way from wall to wall is `Vessel::mean_chord`.
+/// All from the walls, evenly. So they are a gas in equilibrium from their first flight on, whatever the vessel's
+/// shape: they hit walls in proportion to their area, and the mean way from wall to wall is `Vessel::mean_chord`.
 void Flights::start(std::uint64_t first, std::uint64_t count) {
     flying_.assign(count, {});
     for (std::uint64_t i = 0; i < count; ++i) flying_[i].stream.particle = first + i;

@@ -1,5 +1,5 @@
-// The physics: a gas so thin that particles meet nothing but walls. They leave the walls anywhere, fly straight to where
-// they meet one, and stay there, or leave again in a random direction.
+// The physics: a gas so thin that particles meet nothing but walls. They leave the walls anywhere, fly straight to
+// where they meet one, and stay there, or leave again in a random direction.
 #pragma once
 
 #include <cstddef>

@@ -24,8 +24,8 @@ class Ranks {
     [[nodiscard]] int size() const { return size_; }
     [[nodiscard]] bool is_first() const { return rank_ == 0; }
 
-    /// What rank 0 does for all, while the others wait. Where it throws a std::exception, rank 0 says why, and all throw
-    /// `Failed`.
+    /// What rank 0 does for all, while the others wait. Where it throws a std::exception, rank 0 says why, and all
+    /// throw `Failed`.
     struct Failed {};
     template <class Do>
     void first_does(const Do& something) const;

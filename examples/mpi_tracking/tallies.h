@@ -1,4 +1,5 @@
-// What is counted. Whole numbers only, so that sums do not depend on the order of the terms: on who flew which particle.
+// What is counted. Whole numbers only, so that sums do not depend on the order of the terms: on who flew which
+// particle.
 #pragma once
 
 #include <cstddef>

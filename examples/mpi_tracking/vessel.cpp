@@ -1,5 +1,5 @@
-// See vessel.h. Sums and products are written out: what is computed here decides where particles go, and has to have the
-// same bits on all machines, whatever order their Eigen adds in.
+// See vessel.h. Sums and products are written out: what is computed here decides where particles go, and has to have
+// the same bits on all machines, whatever order their Eigen adds in.
 #include "mpi_tracking/vessel.h"
 
 #include <algorithm>

@@ -20,7 +20,8 @@ class Vessel {
     [[nodiscard]] bool has_inside() const;
     /// Of the mesh as it is, bit by bit.
     [[nodiscard]] Hash hash() const;
-    /// Four times the volume by the surface: the mean way from wall to wall of a gas in equilibrium, whatever the shape.
+    /// Four times the volume by the surface: the mean way from wall to wall of a gas in equilibrium, whatever the
+    /// shape.
     [[nodiscard]] double mean_chord() const;
     /// Lengths are counted in this, some 100,000th of the mesh's size: 10^13 flights fit into 64 bits. A power of two,
     /// so that a division by it is exact.
@@ -31,7 +32,8 @@ class Vessel {
         Vec3 point;
         Vec3 normal;  ///< unit
     };
-    /// Every place with the same probability. `point` is a hair inside, where the wall opposite is not nearer than that.
+    /// Every place with the same probability. `point` is a hair inside, where the wall opposite is not nearer than
+    /// that.
     [[nodiscard]] Place place(const Words& words) const;
 
   private:
