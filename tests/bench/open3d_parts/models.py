@@ -59,7 +59,7 @@ def _cubes(model: Model) -> Model:
     points, numbers = np.unique(np.concatenate(quads).reshape(-1, 3), axis=0, return_inverse=True)
     quad = numbers.reshape(-1, 4)
     faces = np.concatenate([quad[:, [0, 1, 2]], quad[:, [0, 2, 3]]])
-    return Model(f"{model.name} of cubes", (points / 32 - 1).astype(np.float32), faces.astype(np.uint32))
+    return Model(f"{model.name} of cubes", (points / 32 - 1).astype(np.float32), faces.astype(np.uint32, order="C"))
 
 
 def _is_closed(model: Model) -> bool:

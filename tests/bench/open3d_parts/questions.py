@@ -1,4 +1,4 @@
-"""Points and rays to ask about: half of them at random, half aimed at what is hard, all of them in single precision."""
+"""Points and rays to ask about, in single precision: anywhere, or aimed at what is hard."""
 
 from __future__ import annotations
 
@@ -6,36 +6,46 @@ import numpy as np
 
 from models import Model
 
+Rays = tuple[np.ndarray, np.ndarray]  # origins and directions
 WAY_OF_OPEN3D = np.ones(3)  # its inside test counts along (1, 1, 1)
 
 
-def make_points(model: Model, count: int, random: np.random.Generator) -> np.ndarray:
-    """Half of them anywhere in the box and around it; the others below vertices and below the middles of edges, seen
-    along Open3D's ray, on a lattice over the box, and at coordinates that vertices have."""
+def points_anywhere(model: Model, count: int, random: np.random.Generator) -> np.ndarray:
+    """In the box and around it."""
+    _, low, high = _box(model)
+    return random.uniform(low - 0.1 * model.size, high + 0.1 * model.size, (count, 3)).astype(np.float32)
+
+
+def points_aimed(model: Model, count: int, random: np.random.Generator) -> np.ndarray:
+    """A quarter each below vertices and below the middles of edges, seen along Open3D's ray, on a lattice over the box,
+    and at coordinates that vertices have."""
     vertices, low, high = _box(model)
-    part = count // 8
-    anywhere = random.uniform(low - 0.1 * model.size, high + 0.1 * model.size, (count - 4 * part, 3))
+    part = count // 4
     at_vertices = vertices[random.integers(len(vertices), size=part)] - _steps(model, part, random) * WAY_OF_OPEN3D
     at_edges = _middles(model, part, random) - _steps(model, part, random) * WAY_OF_OPEN3D
     lattice = low + (high - low) * random.integers(0, 65, (part, 3)) / 64
     coordinates = np.stack([vertices[random.integers(len(vertices), size=part), axis] for axis in range(3)], axis=1)
-    return np.concatenate([anywhere, at_vertices, at_edges, lattice, coordinates]).astype(np.float32)
+    return np.concatenate([at_vertices, at_edges, lattice, coordinates]).astype(np.float32)
 
 
-def make_rays(model: Model, count: int, random: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-    """Origins and directions. Half of them anywhere; the others aimed at vertices and at the middles of edges: from
-    anywhere, so that rounding decides on which side they pass, and from where they pass exactly through them."""
-    vertices, low, high = _box(model)
-    part = count // 8
-    origins = random.uniform(low - 0.1 * model.size, high + 0.1 * model.size, (count - 2 * part, 3)).astype(np.float32)
+def rays_anywhere(model: Model, count: int, random: np.random.Generator) -> Rays:
+    """From the box and around it, in any direction."""
+    return points_anywhere(model, count, random), random.normal(size=(count, 3)).astype(np.float32)
+
+
+def rays_aimed(model: Model, count: int, random: np.random.Generator) -> Rays:
+    """At vertices and at the middles of edges. Half of them from anywhere, so that rounding decides on which side they
+    pass, half from where they pass exactly through them."""
+    vertices, _, _ = _box(model)
+    part = count // 4
     targets = np.concatenate([vertices[random.integers(len(vertices), size=part)], _middles(model, part, random)])
-    directions = random.normal(size=origins.shape).astype(np.float32)
-    directions[:len(targets)] = targets - origins[:len(targets)]
+    origins = points_anywhere(model, 2 * part, random)
     exact_origins, exact_directions = _exact_rays(model, 2 * part, random)
-    return np.concatenate([origins, exact_origins]), np.concatenate([directions, exact_directions])
+    return (np.concatenate([origins, exact_origins]),
+            np.concatenate([(targets - origins).astype(np.float32), exact_directions]))
 
 
-def _exact_rays(model: Model, count: int, random: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+def _exact_rays(model: Model, count: int, random: np.random.Generator) -> Rays:
     """Rays whose line goes through a vertex, or the middle of an edge, as the numbers stand."""
     vertices, _, _ = _box(model)
     origins, directions = [], []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from statistics import median
 from typing import Callable, NamedTuple
@@ -11,6 +12,7 @@ import open3d as o3d
 
 from libraries import WANTED, Open3D, Pierce
 from models import Model
+from questions import Rays
 
 
 class Times(NamedTuple):
@@ -21,10 +23,14 @@ class Times(NamedTuple):
     ratio: float
 
 
-def measure(model: Model, points: np.ndarray, origins: np.ndarray, directions: np.ndarray, threads: int,
-            repetitions: int) -> dict[str, Times]:
-    """On one thread time is that of the process, so that other programs don't count; on more it is on the wall."""
+def measure(model: Model, points: np.ndarray, rays: Rays, threads: int, repetitions: int) -> dict[str, Times]:
+    """On one thread time is that of the process, so that other programs don't count; on more it is on the wall.
+
+    Open3D casts with `nthreads` threads, but fills arrays with OpenMP's: OMP_NUM_THREADS has to be the same, or these
+    wait for one another in loops, at ten times the cost for a few thousand points."""
+    assert os.environ.get("OMP_NUM_THREADS") == str(threads)
     clock = time.process_time if threads == 1 else time.perf_counter
+    origins, directions = rays
     scene, mesh = Open3D(model, threads).scene, Pierce(model, threads).mesh
     their_points = o3d.core.Tensor(points)
     their_rays = o3d.core.Tensor(np.concatenate([origins, directions], axis=1))

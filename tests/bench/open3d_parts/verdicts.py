@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Callable
 
 import numpy as np
 from exact_judge import FirstHit, Judge
@@ -43,8 +44,9 @@ class Tally:
         return ("~" if self.is_estimate and self.number(name) else "") + f"{self.number(name):,}"
 
 
-def _judge_some(differ: np.ndarray, most: int, agreed: int, random: np.random.Generator, verdict) -> Tally:
+def _judge_some(differ: np.ndarray, most: int, agreed: int, verdict: Callable[[int], list[str]]) -> Tally:
     """`verdict(i)` names what is wrong about question i. Asks it about at most `most` of those that differ."""
+    random = np.random.default_rng(7)
     different, same = np.flatnonzero(differ), np.flatnonzero(~differ)
     chosen = random.permutation(different)[:most]
     agreeing = random.permutation(same)[:agreed]
@@ -59,7 +61,7 @@ def _judge_some(differ: np.ndarray, most: int, agreed: int, random: np.random.Ge
 
 
 def judge_points(judge: Judge, points: np.ndarray, ours: np.ndarray, theirs: dict[str, np.ndarray], most: int,
-                 agreed: int, random: np.random.Generator) -> Tally:
+                 agreed: int) -> Tally:
     """`theirs` has Open3D's answers by name. Each is held to its library's own definition: pierce's says where the
     winding number is not 0, Open3D's counts surfaces to infinity, and is asked about no point of the surface."""
 
@@ -71,7 +73,7 @@ def judge_points(judge: Judge, points: np.ndarray, ours: np.ndarray, theirs: dic
         return wrong + [name for name, answer in theirs.items() if bool(answer[i]) != bool(where.crossings % 2)]
 
     differ = np.logical_or.reduce([answer != ours for answer in theirs.values()])
-    return _judge_some(differ, most, agreed, random, verdict)
+    return _judge_some(differ, most, agreed, verdict)
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,7 @@ class RayAnswers:
 
 
 def judge_rays(judge: Judge, origins: np.ndarray, directions: np.ndarray, ours: RayAnswers, theirs: RayAnswers,
-               most: int, agreed: int, random: np.random.Generator) -> Tally:
+               most: int, agreed: int) -> Tally:
     """Open3D's answers don't count where rays start on the surface or lie in a face's plane; where the first place is
     only touched (faces are met from both sides there), to miss it is counted apart."""
 
@@ -112,7 +114,7 @@ def judge_rays(judge: Judge, origins: np.ndarray, directions: np.ndarray, ours: 
     with np.errstate(invalid="ignore"):
         elsewhere = both & ((a.face != b.face) | ~(np.abs(a.t - b.t) <= PLACE * a.t))
     differ = (a.hit != b.hit) | elsewhere | (ours.occluded != theirs.occluded) | (ours.odd != theirs.odd)
-    return _judge_some(differ, most, agreed, random, verdict)
+    return _judge_some(differ, most, agreed, verdict)
 
 
 def _is_exact(first: FirstHits, i: int, truth: FirstHit | None) -> bool:
