@@ -77,7 +77,6 @@ def print_times(times: dict[str, dict[str, Times]]) -> dict[str, float]:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("meshes", type=Path, help="folder of libcgal-demo's meshes")
-    parser.add_argument("--shared", type=Path, default=Path(), help="folder that may have dragon.ply")
     parser.add_argument("--quick", action="store_true", help="half a minute: four models, few questions")
     parser.add_argument("--times", type=int, default=0, help="only times, on so many threads")
     arguments = parser.parse_args()
@@ -87,7 +86,7 @@ def main() -> int:
     quick = arguments.quick
     count, most, repetitions = (8_000, 200, 5) if quick else (80_000, 2_000, 7)
 
-    models = read_models(arguments.meshes, arguments.shared, quick)
+    models = read_models(arguments.meshes, quick)
     if arguments.times:
         return time_all(models, count, repetitions, arguments.times)
     points: dict[str, dict[str, Tally]] = {}

@@ -9,7 +9,8 @@ import numpy as np
 import pierce
 
 # Scans and machine parts, of Debian's libcgal-demo.
-REAL = ("bunny00.off", "armadillo.off", "refined_elephant.off", "turbine.off", "anchor_dense.off", "cube-meshed.off")
+REAL = ("bunny00.off", "armadillo.off", "refined_elephant.off", "diplodocus.off", "turbine.off", "fandisk_large.off",
+        "anchor_dense.off", "cube-meshed.off")
 CELLS = 64  # of the model of cubes, along its longest side
 
 
@@ -26,12 +27,9 @@ class Model:
         return float(np.ptp(self.vertices, axis=0).max())
 
 
-def read_models(folder: Path, shared: Path, quick: bool) -> list[Model]:
-    """Those of libcgal-demo, the dragon where it is there, and cubes around the vertices of the bunny."""
-    paths = [folder / name for name in (REAL[:1] + REAL[-2:] if quick else REAL)]
-    if (shared / "dragon.ply").exists() and not quick:
-        paths.append(shared / "dragon.ply")
-    models = [_read(path) for path in paths]
+def read_models(folder: Path, quick: bool) -> list[Model]:
+    """Those of libcgal-demo in this folder, and cubes around the vertices of the bunny."""
+    models = [_read(folder / name) for name in (REAL[:1] + REAL[-2:] if quick else REAL)]
     models.append(_cubes(models[0]))
     for model in models:
         assert _is_closed(model), f"{model.name} is not closed"
