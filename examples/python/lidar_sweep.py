@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A lidar drives past a few copies of a mesh on a plain and turns meanwhile: 64 beams, 20 turns. Draws the points that it
-sees from above, and the last turn as a picture of ranges."""
+"""A lidar drives past a few copies of a mesh on a plain and turns meanwhile: 64 beams, 20 turns. Draws the points that
+it sees from above, and the last turn as a picture of ranges."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ def street(soup: pierce.TriangleSoup) -> tuple[np.ndarray, np.ndarray]:
 
 
 def sweep() -> tuple[np.ndarray, np.ndarray]:
-    """Origins and directions of all beams in the order of time, shape (steps, BEAMS, 3): the sensor moves between any two
-    of them."""
+    """Origins and directions of all beams in the order of time, shape (steps, BEAMS, 3): the sensor moves from step to
+    step."""
     steps = np.arange(TURNS * STEPS)
     origins = np.stack([60 * steps / len(steps), 1.5 * np.sin(steps / 2000), np.full(len(steps), 1.8)], axis=-1)
     azimuth = 2 * np.pi * steps / STEPS

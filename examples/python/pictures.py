@@ -30,7 +30,8 @@ def read(path: Path) -> pierce.TriangleSoup:
 def coloured(values: np.ndarray, low: float, high: float) -> np.ndarray:
     """Colours of numbers, shape (..., 3), uint8."""
     places = np.clip((values - low) / max(high - low, 1e-30), 0, 1) * (len(SCALE) - 1)
-    return np.stack([np.interp(places, np.arange(len(SCALE)), channel) for channel in SCALE.T], axis=-1).astype(np.uint8)
+    channels = [np.interp(places, np.arange(len(SCALE)), channel) for channel in SCALE.T]
+    return np.stack(channels, axis=-1).astype(np.uint8)
 
 
 def write(pixels: np.ndarray, path: Path, caption: str, enlarge: int = 1) -> None:

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""How thick is a part? From each point that two cameras see a ray goes inwards, to where it leaves the part. Draws that as
-colours, thin places red.
+"""How thick is a part? From each point that two cameras see a ray goes inwards, to where it leaves the part. Draws that
+as colours, thin places red.
 
-The ray back counts backs of faces alone, so it does not hit the face that it starts on, on whichever side of that rounding
-put its start: nothing is moved off the surface by an epsilon."""
+The second ray counts backs of faces alone, so it does not hit the face that it starts on, on whichever side of that
+rounding put its start: nothing is moved off the surface by an epsilon."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""examples/python: each runs without a screen, on a real mesh and on a box whose answers are known, and draws a picture."""
+"""examples/python: each runs without a screen, on a real mesh and a box whose answers are known, and draws a picture."""
 
 import re
 import subprocess

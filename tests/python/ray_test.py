@@ -1,4 +1,4 @@
-"""`pierce.ray.RayMeshIntersector`: shapes, names and answers that users of trimesh expect, on a cube and at its edges."""
+"""`pierce.ray.RayMeshIntersector`: shapes, names and answers that users of trimesh expect."""
 
 import inspect
 from types import SimpleNamespace

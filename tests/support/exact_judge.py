@@ -1,7 +1,7 @@
 """Decides in whole numbers where a point is and what a ray hits first: a judge that shares nothing with pierce.
 
-Written from the rules in include/pierce/hit.h, collision_mesh.h and location.h, by other ways than the library's: rays in
-directions without accidents for winding numbers, and every face that bounds in double precision cannot refuse.
+Written from the rules in include/pierce/hit.h, collision_mesh.h and location.h, by other ways than the library's: rays
+in directions without accidents for winding numbers, and every face that bounds in double precision cannot refuse.
 """
 
 from __future__ import annotations

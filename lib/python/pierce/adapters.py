@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def arrays_of(mesh: Any) -> dict[str, NDArray[Any]]:
+def arrays_of(mesh: Any) -> dict[str, Any]:
     """`vertices` and `faces`, and `face_numbers` where there are such, of a mesh of trimesh, PyVista (PolyData), Open3D
     (TriangleMesh, legacy or of tensors), or of anything that has the same attributes, as `TriangleSoup` has. The dtype
     of the vertices stays.
@@ -21,7 +21,7 @@ def arrays_of(mesh: Any) -> dict[str, NDArray[Any]]:
     >>> arrays_of(quad)
     Traceback (most recent call last):
     ...
-    ValueError: SimpleNamespace: 1 of 1 faces have not three corners, the first is face 0 with 4: cut them into triangles first
+    ValueError: SimpleNamespace: of 1 faces 1 have not three corners, first face 0 with 4: cut them into triangles
     """
     name = type(mesh).__name__
     if hasattr(mesh, "vertex") and hasattr(mesh, "triangle"):  # Open3D's tensors; an empty mesh has neither array
@@ -32,7 +32,7 @@ def arrays_of(mesh: Any) -> dict[str, NDArray[Any]]:
     if hasattr(mesh, "points") and hasattr(mesh, "faces"):
         strips = getattr(mesh, "strips", None)
         if strips is not None and len(strips):
-            raise ValueError(f"{name}: it has strips of triangles: cut them into triangles first")
+            raise ValueError(f"{name}: it has strips of triangles: cut them into triangles")
         return {"vertices": _rows(mesh.points), "faces": _unpacked(np.asarray(mesh.faces), name)}
     if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
         faces = np.asarray(mesh.faces)
@@ -42,8 +42,8 @@ def arrays_of(mesh: Any) -> dict[str, NDArray[Any]]:
         if getattr(mesh, "face_numbers", None) is not None:
             arrays["face_numbers"] = np.asarray(mesh.face_numbers)
         return arrays
-    raise TypeError(f"{name} is no mesh that is known here: what is needed are vertices and faces (trimesh), points and "
-                    "faces (PyVista's PolyData: extract_surface() makes one of a grid), vertices and triangles or "
+    raise TypeError(f"{name} is no mesh that is known here: what is needed are vertices and faces (trimesh), points "
+                    "and faces (PyVista's PolyData: extract_surface() makes one of a grid), vertices and triangles or "
                     "vertex.positions and triangle.indices (Open3D); of a scene take one mesh, or join them")
 
 
@@ -79,5 +79,5 @@ def _unpacked(packed: NDArray[Any], name: str) -> NDArray[Any]:
 
 def _polygons(name: str, sizes: NDArray[Any]) -> str:
     others = np.flatnonzero(sizes != 3)
-    return (f"{name}: {len(others)} of {len(sizes)} faces have not three corners, the first is face {others[0]} with "
-            f"{sizes[others[0]]}: cut them into triangles first")
+    return (f"{name}: of {len(sizes)} faces {len(others)} have not three corners, first face {others[0]} with "
+            f"{sizes[others[0]]}: cut them into triangles")

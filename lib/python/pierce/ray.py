@@ -23,8 +23,8 @@ class RayMeshIntersector:
     copied: make a new intersector when it has changed.
 
     What differs from trimesh: no hit is lost or found twice to rounding, triangles without area and triangles in whose
-    plane a ray lies are not hit, and a ray that starts on a face hits it only if it leaves it to the back. Answers come in
-    order of rays, then of places along them. A triangle is named by its row in the mesh's faces.
+    plane a ray lies are not hit, and a ray that starts on a face hits it only if it leaves it to the back. Answers come
+    in order of rays, then of places along them. A triangle is named by its row in the mesh's faces.
 
     >>> import pierce.ray
     >>> class Wedge:
@@ -66,7 +66,7 @@ class RayMeshIntersector:
 
     def intersects_location(self, ray_origins: ArrayLike, ray_directions: ArrayLike, multiple_hits: bool = True,
                             max_hits: Optional[int] = None) -> tuple[Points, Numbers, Numbers]:
-        """Places where rays hit the mesh, each once: `locations`, shape (h, 3), `index_ray` and `index_tri`, shape (h,)."""
+        """Places where rays hit the mesh, each once: `locations` (h, 3), `index_ray` and `index_tri` (h,)."""
         index_tri, index_ray, *locations = self.intersects_id(
             ray_origins, ray_directions, return_locations=True, multiple_hits=multiple_hits, max_hits=max_hits)
         return locations[0], index_ray, index_tri

@@ -37,7 +37,7 @@ class Open3D:
         return self.scene.compute_signed_distance(o3d.core.Tensor(points), nthreads=self.threads).numpy() < 0
 
     def vote(self, points: np.ndarray) -> np.ndarray:
-        """What most of three rays in random directions say: later versions have it as `nsamples=3`, this one has not."""
+        """What most of three rays in random directions say: later versions have that as `nsamples=3`."""
         directions = np.random.default_rng(3).normal(size=(VOTERS, len(points), 3)).astype(np.float32)
         odd = sum((self.count(points, way) % 2).astype(np.int64) for way in directions)
         return odd > VOTERS // 2
