@@ -10,7 +10,7 @@ from statistics import median
 import numpy as np
 import open3d as o3d
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
 
 from exact_judge import Judge  # noqa: E402
 from libraries import Open3D, Pierce, hits_something  # noqa: E402

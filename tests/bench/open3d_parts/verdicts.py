@@ -1,4 +1,4 @@
-"""Who is right: where the libraries differ tests/support/exact_judge.py decides, and for some where they agree."""
+"""Who is right: where the libraries differ tests/python/exact_judge.py decides, and for some where they agree."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ class Tally:
     judged: int = 0
     agreed_judged: int = 0
     found: Counter[str] = field(default_factory=Counter)
+    scaled: set[str] = field(default_factory=set)  # names of numbers that are estimates
 
     def add(self, other: Tally) -> None:
         self.asked += other.asked
@@ -32,31 +33,39 @@ class Tally:
         self.judged += other.judged
         self.agreed_judged += other.agreed_judged
         self.found.update(other.found)
-
-    @property
-    def is_estimate(self) -> bool:
-        return self.judged < self.differ
-
-    def number(self, name: str) -> int:
-        return round(self.found[name])
+        self.scaled |= other.scaled
 
     def show(self, name: str) -> str:
-        return ("~" if self.is_estimate and self.number(name) else "") + f"{self.number(name):,}"
+        return ("~" if name in self.scaled else "") + f"{round(self.found[name]):,}"
 
 
-def _judge_some(differ: np.ndarray, most: int, agreed: int, verdict: Callable[[int], list[str]]) -> Tally:
-    """`verdict(i)` names what is wrong about question i. Asks it about at most `most` of those that differ."""
+Verdict = Callable[[int], list[str]]  # what is wrong about question i
+
+
+def _judge_some(differences: list[np.ndarray], most: int, agreed: int, verdict: Verdict) -> Tally:
+    """Asks about at most `most` of each kind of difference, each question once, under the first of its kinds."""
     random = np.random.default_rng(7)
-    different, same = np.flatnonzero(differ), np.flatnonzero(~differ)
-    chosen = random.permutation(different)[:most]
-    agreeing = random.permutation(same)[:agreed]
-    tally = Tally(len(differ), len(different), len(chosen), len(agreeing))
-    for sample, all_of_them in ((chosen, different), (agreeing, same)):
+    tally = Tally(len(differences[0]))
+    left = np.ones(tally.asked, dtype=bool)
+
+    def judge(mask: np.ndarray, limit: int) -> tuple[int, int]:
+        members = np.flatnonzero(mask)
+        sample = random.permutation(members)[:limit]
         found: Counter[str] = Counter()
         for i in sample:
             found.update(verdict(int(i)))
         for name, number in found.items():
-            tally.found[name] += number * len(all_of_them) / len(sample)
+            tally.found[name] += number * len(members) / len(sample)
+            if len(sample) < len(members):
+                tally.scaled.add(name)
+        return len(members), len(sample)
+
+    for mask in differences:
+        members, judged = judge(mask & left, most)
+        tally.differ += members
+        tally.judged += judged
+        left &= ~mask
+    tally.agreed_judged = judge(left, agreed)[1]
     return tally
 
 
@@ -73,7 +82,7 @@ def judge_points(judge: Judge, points: np.ndarray, ours: np.ndarray, theirs: dic
         return wrong + [name for name, answer in theirs.items() if bool(answer[i]) != bool(where.crossings % 2)]
 
     differ = np.logical_or.reduce([answer != ours for answer in theirs.values()])
-    return _judge_some(differ, most, agreed, verdict)
+    return _judge_some([differ], most, agreed, verdict)
 
 
 @dataclass(frozen=True)
@@ -112,9 +121,9 @@ def judge_rays(judge: Judge, origins: np.ndarray, directions: np.ndarray, ours: 
     a, b = ours.first, theirs.first
     both = a.hit & b.hit
     with np.errstate(invalid="ignore"):
-        elsewhere = both & ((a.face != b.face) | ~(np.abs(a.t - b.t) <= PLACE * a.t))
-    differ = (a.hit != b.hit) | elsewhere | (ours.occluded != theirs.occluded) | (ours.odd != theirs.odd)
-    return _judge_some(differ, most, agreed, verdict)
+        elsewhere = both & ~(np.abs(a.t - b.t) <= PLACE * a.t)
+    grave = (a.hit != b.hit) | elsewhere | (ours.occluded != theirs.occluded)
+    return _judge_some([grave, ours.odd != theirs.odd, both & (a.face != b.face)], most, agreed, verdict)
 
 
 def _is_exact(first: FirstHits, i: int, truth: FirstHit | None) -> bool:

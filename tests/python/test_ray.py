@@ -8,7 +8,7 @@ import pytest
 
 import pierce
 from exact_judge import Judge
-from exact_judge_test import box, joined
+from test_exact_judge import box, joined
 from pierce.ray import RayMeshIntersector
 
 

@@ -1,4 +1,4 @@
-"""examples/python: each runs without a screen, on a real mesh and a box whose answers are known, and draws a picture."""
+"""examples/python: each runs without a screen, on a real mesh and a box whose answers are known, and draws."""
 
 import re
 import subprocess
@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from exact_judge_test import box
+from test_exact_judge import box
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
