@@ -98,6 +98,7 @@ def test_a_mesh_of_nothing(name, empty):
 @pytest.mark.parametrize("mesh, words", [
     (PolyData(VERTICES, [3, 0, 2, 1, 4, 0, 1, 2, 3]), "of 2 faces 1 have not three corners, first face 1 with 4"),
     (PolyData(VERTICES, [4, 3, 3, 3, 3, 3, 0, 1, 2]), "of 2 faces 1 have not three corners, first face 0 with 4"),
+    (PolyData(VERTICES, [4, 0, 1, 2, 3] * 4), "of 4 faces 4 have not three corners, first face 0 with 4"),
     (PolyData(VERTICES, [3, 0, 2, 1, 3, 0, 1]), "entry 4 says 3 corners"),
     (PolyData(VERTICES, [0, 3, 0, 2, 1]), "entry 0 says 0 corners"),
     (PolyData(VERTICES, [], strips=[4, 0, 1, 2, 3]), "strips"),

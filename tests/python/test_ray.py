@@ -71,6 +71,21 @@ def test_a_place_comes_once_and_a_triangle_too():
         assert sorted(index_tri[index_ray == ray]) == sorted(face for _, face in judge.hits(origins[ray], ways[ray]))
 
 
+def test_places_of_two_rays_are_two():
+    rays = rays_of(box())
+    for ways in ([[1, 0, 0]] * 2, [[1, 0, 0], [0, 1, 0]]):
+        locations, index_ray, _ = rays.intersects_location([[0.5, 0.5, 0.25]] * 2, ways)
+        assert index_ray.tolist() == [0, 1] and len(locations) == 2
+
+
+def test_places_that_round_to_one_are_two():
+    """Two sheets less than a unit in the last place apart: so are their t."""
+    far, unit = 2.0**30, 2.0**-22
+    vertices = [[-1, -9, far], [-1, 9, far], [1, 0, far + unit], [3, 0, far + unit]]
+    locations, _, index_tri = rays_of((vertices, [[0, 1, 2], [0, 1, 3]])).intersects_location([[0, 0, far]], [[0, 0, 1]])
+    assert locations.tolist() == [[0, 0, far]] * 2 and index_tri.tolist() == [1, 0]
+
+
 def test_points():
     points = [[0.5, 0.5, 0.5], [1.5, 0.5, 0.5], [2.5, 0.5, 0.5]]
     assert rays_of(nested()).contains_points(points).tolist() == [True, True, False]
