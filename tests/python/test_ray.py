@@ -86,6 +86,14 @@ def test_places_that_round_to_one_are_two():
     assert locations.tolist() == [[0, 0, far]] * 2 and index_tri.tolist() == [1, 0]
 
 
+def test_two_places_whose_t_round_to_one():
+    far, unit = 2.0**30, 2.0**-30
+    vertices = [[-1, -9, 0], [-1, 9, 0], [1, 0, unit], [3, 0, unit]]
+    locations, _, index_tri = rays_of((vertices, [[0, 1, 2], [0, 1, 3]])).intersects_location([[0, 0, far]],
+                                                                                              [[0, 0, -1]])
+    assert locations[:, 2].tolist() == [unit / 2, unit / 4] and index_tri.tolist() == [0, 1]
+
+
 def test_points():
     points = [[0.5, 0.5, 0.5], [1.5, 0.5, 0.5], [2.5, 0.5, 0.5]]
     assert rays_of(nested()).contains_points(points).tolist() == [True, True, False]
