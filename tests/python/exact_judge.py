@@ -14,7 +14,7 @@ from typing import Iterable, NamedTuple, Sequence
 import numpy as np
 
 Numbers = tuple[int, int, int]
-GROUP = 64  # faces that share a box
+GROUP = 32  # faces that share a box
 
 
 class Location(NamedTuple):
@@ -39,6 +39,8 @@ class Judge:
     def __init__(self, vertices: np.ndarray, faces: np.ndarray) -> None:
         self._corners = np.asarray(vertices, dtype=np.float64)[np.asarray(faces, dtype=np.int64)]
         assert np.isfinite(self._corners).all()
+        self._last_ray: tuple | None = None
+        self._last_meetings: list[tuple[int, int, int, bool | None]] = []
         middles = self._corners.mean(axis=1)
         self._order = _along_a_curve(middles)
         sorted_corners = self._corners[self._order]
@@ -68,7 +70,7 @@ class Judge:
              sides: str = "both") -> list[tuple[Fraction, int]]:
         """All hits as (fraction, face), in no order."""
         found = []
-        for face, front, along, meets in self._meetings(origin, direction):
+        for face, front, along, meets in self._meetings_of(origin, direction):
             # Without an end the side is that of the direction: far away the plane's constant does not count.
             end = along if limit is None else front + Fraction(limit) * along
             if meets and along != 0 and _changes_side(front, end, sides):
@@ -77,7 +79,7 @@ class Judge:
 
     def lies_in_a_plane(self, origin: Sequence[float], direction: Sequence[float]) -> bool:
         """Whether the ray's line meets a face in whose plane it lies: pierce does not call that a hit, others may."""
-        return any(meets and front == 0 == along for _, front, along, meets in self._meetings(origin, direction))
+        return any(meets and front == 0 == along for _, front, along, meets in self._meetings_of(origin, direction))
 
     def locate(self, point: Sequence[float]) -> Location:
         """Where a point is. The mesh must be closed and of one orientation: then no way out is better than another."""
@@ -106,6 +108,13 @@ class Judge:
                 winding += 1 if along > 0 else -1
                 crossings += 1
         return Location(False, winding, crossings)
+
+    def _meetings_of(self, origin: Sequence[float], direction: Sequence) -> list[tuple[int, int, int, bool | None]]:
+        """Those of the last ray are kept: it is asked about several times."""
+        key = (*map(float, origin), *direction)
+        if key != self._last_ray:
+            self._last_ray, self._last_meetings = key, list(self._meetings(origin, direction))
+        return self._last_meetings
 
     def _meetings(self, origin: Sequence[float], direction: Sequence, *, nudged: bool = False, accidents: bool = False,
                   ) -> Iterable[tuple[int, int, int, bool | None]]:

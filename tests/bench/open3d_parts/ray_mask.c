@@ -1,5 +1,5 @@
-// Preloaded, it makes Debian's Open3D hit anything at all. Open3D leaves the mask of its rays at 0, which Embree ignores
-// as Open3D's own wheels build it; Debian's Embree looks at masks, and then such a ray hits nothing.
+// Preloaded, it makes Debian's Open3D hit anything at all. Open3D leaves the mask of its rays at 0, which Embree
+// ignores as Open3D's own wheels build it; Debian's Embree looks at masks, and then such a ray hits nothing.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <embree3/rtcore.h>
