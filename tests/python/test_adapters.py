@@ -1,5 +1,7 @@
 """Meshes of other packages: each of the same tetrahedron gives the same answers, and nothing is dropped in silence."""
 
+import re
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -113,6 +115,18 @@ def test_what_is_no_triangle_is_refused(mesh, words):
 def test_what_is_no_mesh_is_refused(thing):
     with pytest.raises(TypeError, match=f"{type(thing).__name__} is no mesh"):
         arrays_of(thing)
+
+
+def test_the_guide():
+    """The block of Python in the page, for a mesh as trimesh has it."""
+    page = Path(__file__).resolve().parents[2] / "examples" / "guide" / "python_examples.md"
+    (block,) = re.findall(r"^```python\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL)
+    names = {"part": MESHES["trimesh"](), "points": [[1, 1, 1], [9, 1, 1]], "origins": [[1, 1, 9], [9, 9, 9]],
+             "directions": [[0, 0, -1]] * 2}
+    exec(compile(block, str(page), "exec"), names)
+    assert names["inside"].tolist() == [True, False]
+    assert names["locations"].tolist() == [[1, 1, 2], [1, 1, 0]] and names["index_ray"].tolist() == [0, 0]
+    assert names["index_tri"].tolist() == [3, 0] and names["first"].tolist() == [3, -1]
 
 
 def test_a_wrong_corner_is_refused():
