@@ -20,7 +20,7 @@ std::string text_of(const py::handle& value) { return py::str(value); }
     throw py::value_error(std::string(what) + ": shape " + shape_of(array) + ", where " + wanted + " is needed");
 }
 
-py::array converted(const py::array& array, const char* dtype) { return array.attr("astype")(dtype); }
+py::array converted(const py::array& array, const char* dtype) { return array.attr("astype")(dtype, "C"); }
 
 // Of 0 to 2^53 (float: 2^24) all whole numbers are exact.
 template <class Scalar>
@@ -147,6 +147,7 @@ Values<Scalar> values_of(const py::object& given, const char* what, std::size_t 
         refuse_shape(what, values.owner, ("one number, or (" + std::to_string(count) + ",),").c_str());
     values.owner = side_by_side(values.owner);
     values.first = static_cast<const Scalar*>(values.owner.data());
+    values.size = count;
     return values;
 }
 

@@ -72,6 +72,7 @@ struct Values {
     py::array owner;
     Scalar one = 0;
     const Scalar* first = nullptr;  ///< null: `one` is that of all
+    std::size_t size = 0;
 
     [[nodiscard]] bool many() const { return first != nullptr; }
     [[nodiscard]] std::span<const Scalar> part(std::size_t begin, std::size_t count) const {

@@ -143,8 +143,10 @@ class Gathered {
     }
     /// What all kinds of hits say of the face.
     void face() {
-        column<std::uint32_t>("face", [](const Answer& one) { return one.face; }, no_face);
-        column<std::uint32_t>("triangle", [](const Answer& one) { return one.triangle; }, no_face);
+        column<std::uint32_t>(
+            "face", [](const Answer& one) { return one.face; }, no_face);
+        column<std::uint32_t>(
+            "triangle", [](const Answer& one) { return one.triangle; }, no_face);
         column<std::uint8_t>("side", [](const Answer& one) { return one.side; });
     }
     void feature() {

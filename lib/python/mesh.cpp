@@ -8,44 +8,18 @@
 
 #include <python/arrays.h>
 #include <python/bind.h>
-#include <python/work.h>
+#include <python/making.h>
 
 namespace pierce::python {
 
 namespace {
 
-Broadphase broadphase_of(const std::string& word) {
-    if (word == "automatic") return Broadphase::automatic;
-    if (word == "tree") return Broadphase::tree;
-    if (word == "grid") return Broadphase::grid;
-    throw py::value_error("broadphase: '" + word + "', where 'automatic', 'tree' or 'grid' is needed");
-}
-
-template <class Scalar>
-Mesh made(const py::array& vertices, const py::object& faces, const py::object& face_numbers,
-          const BuildOptions& options) {
-    const Points<Scalar> positions = points_of<Scalar>(vertices, "vertices");
-    const Triangles triangles = triangles_of(faces, "faces");
-    Numbers numbers;
-    if (!face_numbers.is_none()) numbers = whole_numbers_of(face_numbers, "face_numbers");
-    const MeshView<Scalar> view{positions.view, triangles.view, numbers.view};
-    const py::gil_scoped_release released;
-    return Mesh(CollisionMesh<Scalar>(view, options));
-}
-
 Mesh make(const py::object& vertices, const py::object& faces, const py::object& face_numbers,
           const std::string& broadphase, double cell_size, std::size_t max_grid_bytes, const std::string& backend,
           int threads) {
-    BuildOptions options;
-    options.broadphase = broadphase_of(broadphase);
-    options.cell_size = cell_size;
-    options.max_grid_bytes = max_grid_bytes;
-    options.backend = backend;
-    options.executor = Threads(threads).executor();
-    const py::array array = array_of(vertices);
-    const bool in_float = array.dtype().kind() == 'f' && array.itemsize() <= py::ssize_t{sizeof(float)};
-    return in_float ? made<float>(array, faces, face_numbers, options)
-                    : made<double>(array, faces, face_numbers, options);
+    const BuildOptions options = build_options(broadphase, cell_size, max_grid_bytes, backend, threads);
+    return made(vertices, faces, face_numbers,
+                [&]<class Scalar>(const MeshView<Scalar>& view) { return Mesh(CollisionMesh<Scalar>(view, options)); });
 }
 
 // The vector's memory, as an array that keeps it.

@@ -138,7 +138,9 @@ py::tuple passages(const Mesh& self, const py::object& start, const py::object& 
 
 }  // namespace
 
-void bind_places(MeshClass& mesh) { mesh.def("contains", &contains).def("winding_numbers", &winding_numbers);
-    mesh.def("locate", &locate).def("passages", &passages); }
+void bind_places(MeshClass& mesh) {
+    mesh.def("contains", &contains).def("winding_numbers", &winding_numbers);
+    mesh.def("locate", &locate).def("passages", &passages);
+}
 
 }  // namespace pierce::python

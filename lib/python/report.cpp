@@ -1,7 +1,9 @@
 // What people ask of a mesh: why a face is hit or is not, and what is odd about it.
 #include <pybind11/stl.h>
 
+#include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <python/arrays.h>
@@ -68,8 +70,49 @@ py::dict mesh_report(const Mesh& self) {
     return parts;
 }
 
+// By the names that they have in Python, for a test to compare.
+py::dict enumerators() {
+    py::dict all;
+    const auto kind = [&]<class Enumerator>(const char* name,
+                                            std::initializer_list<std::pair<const char*, Enumerator>> of) {
+        py::dict numbers;
+        for (const auto& [word, enumerator] : of) numbers[word] = static_cast<int>(enumerator);
+        all[name] = numbers;
+    };
+    kind.operator()<Sides>("Sides", {{"front", Sides::front}, {"back", Sides::back}, {"both", Sides::both}});
+    kind.operator()<Feature>("Feature",
+                             {{"face", Feature::face}, {"edge", Feature::edge}, {"vertex", Feature::vertex}});
+    kind.operator()<Place>("Place",
+                           {{"outside", Place::outside}, {"inside", Place::inside}, {"on_surface", Place::on_surface}});
+    kind.operator()<PassageKind>(
+        "PassageKind",
+        {{"entering", PassageKind::entering}, {"leaving", PassageKind::leaving}, {"grazing", PassageKind::grazing}});
+    kind.operator()<MoveState>("MoveState", {{"free", MoveState::free},
+                                             {"slid", MoveState::slid},
+                                             {"resting", MoveState::resting},
+                                             {"wedged", MoveState::wedged},
+                                             {"invalid", MoveState::invalid},
+                                             {"crushed", MoveState::crushed}});
+    kind.operator()<Reason>("Reason", {{"first_hit", Reason::first_hit},
+                                       {"later", Reason::later},
+                                       {"apart", Reason::apart},
+                                       {"zero_area", Reason::zero_area},
+                                       {"masked", Reason::masked},
+                                       {"in_plane", Reason::in_plane},
+                                       {"in_front", Reason::in_front},
+                                       {"behind", Reason::behind},
+                                       {"wrong_side", Reason::wrong_side},
+                                       {"outside_edge", Reason::outside_edge},
+                                       {"too_far", Reason::too_far},
+                                       {"not_accepted", Reason::not_accepted}});
+    return all;
+}
+
 }  // namespace
 
-void bind_report(MeshClass& mesh) { mesh.def("explain", &explain).def("mesh_report", &mesh_report); }
+void bind_report(py::module_& module, MeshClass& mesh) {
+    module.def("enumerators", &enumerators);
+    mesh.def("explain", &explain).def("mesh_report", &mesh_report);
+}
 
 }  // namespace pierce::python

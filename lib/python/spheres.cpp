@@ -93,9 +93,7 @@ py::dict sphere_contacts(const Mesh& self, const py::object& given, double radiu
 }  // namespace
 
 void bind_spheres(MeshClass& mesh) {
-    mesh.def("sweep_spheres", &sweep_spheres)
-        .def("sphere_hits", &sphere_hits)
-        .def("sphere_contacts", &sphere_contacts);
+    mesh.def("sweep_spheres", &sweep_spheres).def("sphere_hits", &sphere_hits).def("sphere_contacts", &sphere_contacts);
 }
 
 }  // namespace pierce::python

@@ -6,12 +6,18 @@
 
 from ._pierce import MeshError
 from ._pierce import version as __version__
-from .answers import NO_FACE, Answers, Hits
+from ._reports import FaceVerdict, MeshReport
+from .answers import (NO_FACE, Answers, FaceTouches, Hits, Locations, MoveContacts, Moves, Passages, RigidHits,
+                      SphereHits, SweepHits)
+from .deforming import DeformationStep, DeformingMesh
 from .enums import Feature, MoveState, PassageKind, Place, Reason, Sides
 from .mesh import CollisionMesh
+from .motions import Pose, RigidMotion, Translation
 from .soup import NO_NAME, TriangleSoup, read_mesh
 
 __all__ = [
-    "NO_FACE", "NO_NAME", "Answers", "CollisionMesh", "Feature", "Hits", "MeshError", "MoveState", "PassageKind",
-    "Place", "Reason", "Sides", "TriangleSoup", "read_mesh", "__version__",
+    "NO_FACE", "NO_NAME", "Answers", "CollisionMesh", "DeformationStep", "DeformingMesh", "FaceTouches", "FaceVerdict",
+    "Feature", "Hits", "Locations", "MeshError", "MeshReport", "MoveContacts", "MoveState", "Moves", "PassageKind",
+    "Passages", "Place", "Pose", "Reason", "RigidHits", "RigidMotion", "Sides", "SphereHits", "SweepHits",
+    "Translation", "TriangleSoup", "read_mesh", "__version__",
 ]

@@ -7,12 +7,16 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _pierce
+from . import _pierce, adapters
 from ._hits import HitQueries
+from ._motion import MotionQueries
+from ._moves import Moving
 from ._places import PlaceQueries
+from ._reports import Reports
+from ._spheres import SphereQueries
 
 
-class CollisionMesh(HitQueries, PlaceQueries):
+class CollisionMesh(HitQueries, PlaceQueries, SphereQueries, MotionQueries, Moving, Reports):
     """Triangles in a tree, or a grid, for queries that are decided as if in exact arithmetic.
 
     `vertices`: shape (n, 3). float32 makes a mesh in single precision, float64 one in double; integers and lists
@@ -39,11 +43,29 @@ class CollisionMesh(HitQueries, PlaceQueries):
     >>> import numpy as np, pierce
     >>> floor = pierce.CollisionMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
     >>> hits = floor.first_hits([[1, 1, 3], [9, 9, 3]], [[1, 1, -1], [9, 9, -1]])
-    >>> hits.hit.tolist(), hits.fraction.tolist()
+    >>> hits.hit.tolist(), hits.exact_fraction.tolist()
     ([True, False], [0.75, 0.0])
     """
 
     _core: _pierce.Mesh
+
+    @classmethod
+    def of(cls, mesh: Any, **options: Any) -> CollisionMesh:
+        """The mesh of another library's object: of anything with `vertices` and `faces`, as trimesh's and `TriangleSoup`;
+        `pierce.adapters.arrays_of` knows the others. `options`: as of the constructor. TypeError: it is none of them.
+
+        >>> import pierce
+        >>> soup = pierce.TriangleSoup(vertices=[[0, 0, 0], [4, 0, 0], [0, 4, 0]], faces=[[0, 1, 2]])
+        >>> pierce.CollisionMesh.of(soup)
+        <CollisionMesh: 1 triangles, float64>
+        """
+        return cls(**{**adapters.arrays_of(mesh), **options})
+
+    @classmethod
+    def _of_core(cls, core: _pierce.Mesh) -> CollisionMesh:
+        mesh = cls.__new__(cls)
+        mesh._core = core
+        return mesh
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike, *, face_numbers: Optional[ArrayLike] = None,
                  broadphase: str = "automatic", cell_size: float = 0, max_grid_bytes: int = 0, backend: str = "",

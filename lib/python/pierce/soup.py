@@ -47,7 +47,7 @@ def read_mesh(path: Union[str, os.PathLike[str]], dtype: DTypeLike = np.float64,
 
     >>> import pierce
     >>> with open("floor.off", "w") as file:
-    ...     _ = file.write("OFF 4 1 0  0 0 0  1 0 0  1 1 0  0 1 0  4 0 1 2 3")
+    ...     _ = file.write("OFF\\n4 1 0\\n0 0 0\\n1 0 0\\n1 1 0\\n0 1 0\\n4 0 1 2 3\\n")
     >>> soup = pierce.read_mesh("floor.off")
     >>> soup.vertices.shape, soup.faces.shape, soup.face_numbers.tolist()
     ((4, 3), (2, 3), [0, 0])
