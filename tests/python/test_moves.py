@@ -71,7 +71,6 @@ def test_balls(room: pierce.CollisionMesh) -> None:
     for _ in range(20):
         velocities = rng.uniform(-3, 3, points.shape).astype(room.dtype)
         moves = room.move_and_slide(points, velocities, 0.5, radius=radii)
-        assert not room.sweep_spheres(points, points + 0, radii).hit.any()
         points = moves.position
         for point, radius in zip(points[:5], radii):
             assert (room.sphere_contacts(point, float(radius)).overlap <= 0).all()

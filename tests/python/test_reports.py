@@ -24,7 +24,8 @@ def test_files(scalar: Any, tmp_path: Path) -> None:
     assert pierce.read_mesh(path).materials == [] and pierce.read_mesh(path).material_of_face is None
     mesh = pierce.CollisionMesh.of(soup)
     assert len(mesh) == 3 and mesh.dtype == scalar and mesh.statistics()["faces"] == 2
-    assert set(mesh.first_hits([[0.25, 0.5, 1]], [[0.25, 0.5, -1]]).face) == {0}
+    ends = np.array([[0.25, 0.5, 1], [0.25, 0.5, -1]], scalar)
+    assert mesh.first_hits(ends[0], ends[1]).face.tolist() == [0]
     path.write_text("v 0 0 zero\n")
     with pytest.raises(pierce.MeshError, match="house.obj:1: "):
         pierce.read_mesh(path)
@@ -114,7 +115,7 @@ def test_answers_are_indexed_and_say_what_they_lack() -> None:
         with pytest.raises(ValueError, match="sides"):
             mesh.first_hits(vertices, vertices, sides=sides)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="mask"):
-        mesh.first_hits(vertices, vertices, mask=[])
+        mesh.first_hits(vertices, vertices, mask=np.array([], bool))
     located = mesh.locate(vertices)
     assert len(located[2:5].touches) == len(located.touches) and len(located[2:5]) == 3
 
@@ -122,6 +123,6 @@ def test_answers_are_indexed_and_say_what_they_lack() -> None:
 def test_numbers_of_enumerators() -> None:
     from pierce import _pierce
 
-    ours = {kind.__name__: {one.name.lower(): int(one) for one in kind}
-            for kind in (pierce.Sides, pierce.Feature, pierce.Place, pierce.PassageKind, pierce.MoveState, pierce.Reason)}
+    kinds = (pierce.Sides, pierce.Feature, pierce.Place, pierce.PassageKind, pierce.MoveState, pierce.Reason)
+    ours = {kind.__name__: {one.name.lower(): int(one) for one in kind} for kind in kinds}
     assert ours == _pierce.enumerators()

@@ -27,7 +27,7 @@ def many_points(count: int = MANY) -> Any:
 
 def every_batch(mesh: pierce.CollisionMesh) -> dict[str, Callable[..., Any]]:
     """All calls that take `threads` and `progress`."""
-    starts, ends = random_segments(70_000)
+    starts, ends = random_segments(140_000)
     few = slice(0, 3000)
     deforming = pierce.DeformingMesh(*sphere(10))
     turn = pierce.RigidMotion(pierce.Pose(), pierce.Pose([[0, -1, 0], [1, 0, 0], [0, 0, 1]]), 0.1)
@@ -99,7 +99,6 @@ def test_ctrl_c_ends_a_call(mesh: pierce.CollisionMesh, threads: int) -> None:
 
 def test_other_threads_run_meanwhile(mesh: pierce.CollisionMesh) -> None:
     counted, running = [0], threading.Event()
-    calls: list[tuple[int, float]] = []
 
     def count() -> None:
         while not running.is_set():
@@ -111,11 +110,11 @@ def test_other_threads_run_meanwhile(mesh: pierce.CollisionMesh) -> None:
     try:
         before = counted[0]
         mesh.first_hits(many_points(1 << 15), [0, 0, 0])  # one call without the lock, so nothing gives way in between
-        calls.append((counted[0] - before, 0))
+        meanwhile = counted[0] - before
     finally:
         running.set()
         other.join()
-    assert calls[0][0] > 10
+    assert meanwhile > 10
 
 
 def test_two_threads_ask_one_mesh(mesh: pierce.CollisionMesh) -> None:

@@ -15,6 +15,8 @@ from .mesh import CollisionMesh
 from .motions import Pose, RigidMotion, Translation
 from .soup import NO_NAME, TriangleSoup, read_mesh
 
+MeshError.__doc__ = "A mesh, or a mesh file, that can't be used: one line that names the place and the reason."
+
 __all__ = [
     "NO_FACE", "NO_NAME", "Answers", "CollisionMesh", "DeformationStep", "DeformingMesh", "FaceTouches", "FaceVerdict",
     "Feature", "Hits", "Locations", "MeshError", "MeshReport", "MoveContacts", "MoveState", "Moves", "PassageKind",

@@ -58,8 +58,8 @@ class HitQueries:
                            progress: Progress = None) -> Hits:
         """The same for rays: all points origin + t * direction with t from 0 to `limit`.
 
-        `origins`, `directions`: shape (n, 3), directions of any length but 0: nothing is normalised or rounded. `limit`:
-        one number, or shape (n,). `fraction` and `exact_fraction` are t. Errors and cost as of `first_hits`.
+        `origins`, `directions`: shape (n, 3), directions of any length but 0: nothing is normalised or rounded.
+        `limit`: one number, or shape (n,). `fraction` and `exact_fraction` are t. Errors and cost as of `first_hits`.
 
         >>> import pierce
         >>> floor = pierce.CollisionMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])

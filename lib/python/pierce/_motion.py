@@ -60,9 +60,9 @@ class MotionQueries:
     def refit(self, vertices: ArrayLike, changed: Optional[ArrayLike] = None, *, threads: int = 1) -> None:
         """New positions for all vertices, in a quarter of the time of a build; faces and their numbers stay.
 
-        `vertices`: shape (n, 3), as many as before. `changed`: shape (k,), integers: only these moved. Answers are those
-        of a mesh that is built from these positions, to the last bit; the time of queries grows as the mesh leaves the
-        shape that it was built in (`refit_cost`).
+        `vertices`: shape (n, 3), as many as before. `changed`: shape (k,), integers: only these moved. Answers are
+        those of a mesh that is built from these positions, to the last bit; the time of queries grows as the mesh
+        leaves the shape that it was built in (`refit_cost`).
 
         ValueError where there are not as many positions as vertices, `MeshError` for one that is not finite; the mesh
         stays as it was. RuntimeError where another thread asks the mesh just now, and for the mesh of a step.

@@ -1,4 +1,4 @@
-"""Particles that slide along what they meet, bounce off it or come to rest: of a mesh, or of a step of one that moves."""
+"""Particles that slide along what they meet, bounce off it or rest: of a mesh, or of a step of one that moves."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ class Moving:
                        progress: Progress = None) -> Moves:
         """Moves particles by one step of `seconds`, sliding without friction along what they meet.
 
-        `positions`, `velocities`: shape (n, 3); velocities have gravity and the like already in them. The way to the new
-        position has no hit, so no chain of moves gets through the mesh. What rests is not moved by one bit.
+        `positions`, `velocities`: shape (n, 3); velocities have gravity and the like already in them. The way to the
+        new position has no hit, so no chain of moves gets through the mesh. What rests is not moved by one bit.
 
         ValueError where lengths differ, TypeError for dtypes with more digits than the mesh's. Most moves take one to
         four queries.
@@ -57,8 +57,8 @@ class Moving:
                         contacts: int = 0, threads: int = 1, progress: Progress = None) -> Moves:
         """The same with impacts and friction: impacts above `rest_speed` bounce, others slide.
 
-        `restitution` (the part of the approach that comes back, 0 to 1) and `friction` (Coulomb's, 0 and up): one number
-        for all faces, or shape (number of faces,) by the face's number.
+        `restitution` (the part of the approach that comes back, 0 to 1) and `friction` (Coulomb's, 0 and up): one
+        number for all faces, or shape (number of faces,) by the face's number.
 
         >>> import pierce
         >>> floor = pierce.CollisionMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])

@@ -50,8 +50,8 @@ class PlaceQueries:
         return self._core.winding_numbers(points, threads, progress)
 
     def locate(self, points: ArrayLike, *, threads: int = 1, progress: Progress = None) -> Locations:
-        """Whether each point is outside, inside or on the surface, exactly; its winding number, and the triangles that it
-        lies on: those of point i are `touches[first_face[i]:first_face[i] + face_count[i]]`, in order of (face,
+        """Whether each point is outside, inside or on the surface, exactly; its winding number, and the triangles that
+        it lies on: those of point i are `touches[first_face[i]:first_face[i] + face_count[i]]`, in order of (face,
         triangle). Errors as of `contains`. Points on the surface take one query more, on one thread.
 
         >>> import pierce

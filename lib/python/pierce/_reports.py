@@ -78,8 +78,8 @@ class Reports:
                 for face, triangle, reason, edge, text in verdicts]
 
     def mesh_report(self) -> MeshReport:
-        """What is odd about the mesh, and whether it can keep particles in. Computed anew by each call, in about the time
-        of a build.
+        """What is odd about the mesh, and whether it can keep particles in. Computed anew by each call, in about the
+        time of a build.
 
         >>> import pierce
         >>> report = pierce.CollisionMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]]).mesh_report()

@@ -17,8 +17,8 @@ class SphereQueries:
     """Balls that move in a straight line without turning.
 
     A ball hits a closed triangle where its center comes nearer to it than the radius; to be exactly as far away is to
-    touch, which is no hit. It has two sides for every triangle, so there is no `sides`. A number for `radius` is rounded
-    to the mesh's dtype. A radius that is not above 0, and what is not finite, hits nothing and is counted.
+    touch, which is no hit. It has two sides for every triangle, so there is no `sides`. A number for `radius` is
+    rounded to the mesh's dtype. A radius that is not above 0, and what is not finite, hits nothing and is counted.
     """
 
     _core: _pierce.Mesh

@@ -51,8 +51,9 @@ class CollisionMesh(HitQueries, PlaceQueries, SphereQueries, MotionQueries, Movi
 
     @classmethod
     def of(cls, mesh: Any, **options: Any) -> CollisionMesh:
-        """The mesh of another library's object: of anything with `vertices` and `faces`, as trimesh's and `TriangleSoup`;
-        `pierce.adapters.arrays_of` knows the others. `options`: as of the constructor. TypeError: it is none of them.
+        """The mesh of another library's object: of anything with `vertices` and `faces`, as trimesh's and
+        `TriangleSoup`; `pierce.adapters.arrays_of` knows the others. `options`: as of the constructor. TypeError: it is
+        none of them.
 
         >>> import pierce
         >>> soup = pierce.TriangleSoup(vertices=[[0, 0, 0], [4, 0, 0], [0, 4, 0]], faces=[[0, 1, 2]])

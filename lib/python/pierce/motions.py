@@ -45,8 +45,9 @@ class RigidMotion:
     while one of its points, the pivot, goes straight at constant velocity.
 
     A sweep cuts the curve that a point takes, seen from the mesh, into chords that are no further than `tolerance` from
-    it, a length in the world; what these hit is decided exactly. Where each step begins with the pose that the one before
-    ended with, and each point where it was put, no chain of steps gets through a closed mesh, whatever the tolerance.
+    it, a length in the world; what these hit is decided exactly. Where each step begins with the pose that the one
+    before ended with, and each point where it was put, no chain of steps gets through a closed mesh, whatever the
+    tolerance.
 
     `pivot`: shape (3,), in the mesh's coordinates. ValueError where a pose is none, or the tolerance not more than 0.
 
