@@ -1,6 +1,7 @@
 """Long calls: threads, progress, other threads of Python meanwhile, and Ctrl-C."""
 
 import signal
+import sys
 import threading
 import time
 from typing import Any, Callable
@@ -98,23 +99,28 @@ def test_ctrl_c_ends_a_call(mesh: pierce.CollisionMesh, threads: int) -> None:
 
 
 def test_other_threads_run_meanwhile(mesh: pierce.CollisionMesh) -> None:
-    counted, running = [0], threading.Event()
+    counted, done = [0], threading.Event()
 
     def count() -> None:
-        while not running.is_set():
+        while not done.is_set():
             counted[0] += 1
             time.sleep(0)
 
+    interval = sys.getswitchinterval()
     other = threading.Thread(target=count)
-    other.start()
     try:
+        sys.setswitchinterval(1000)  # nobody loses the lock but who gives it away
+        other.start()
+        points = many_points(1 << 17)  # one call without the lock
         before = counted[0]
-        mesh.first_hits(many_points(1 << 15), [0, 0, 0])  # one call without the lock, so nothing gives way in between
-        meanwhile = counted[0] - before
+        sum(range(100_000))
+        assert counted[0] == before
+        mesh.first_hits(points, [0, 0, 0], wanted=())
+        assert counted[0] > before
     finally:
-        running.set()
+        sys.setswitchinterval(interval)
+        done.set()
         other.join()
-    assert meanwhile > 10
 
 
 def test_two_threads_ask_one_mesh(mesh: pierce.CollisionMesh) -> None:
