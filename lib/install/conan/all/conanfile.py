@@ -36,9 +36,9 @@ class PierceConan(ConanFile):
         compiler = str(self.settings.compiler)
         oldest = {"gcc": "12", "clang": "14"}
         if compiler == "msvc" or Version(self.settings.compiler.version) < oldest.get(compiler, "0"):
-            raise ConanInvalidConfiguration(f"{self.ref} needs GCC 12 or Clang 14 and newer: its kernels use their vectors")
+            raise ConanInvalidConfiguration("pierce needs GCC 12 or Clang 14 and newer: its kernels use their vectors")
         if self.settings.os == "Windows" and self.options.shared:
-            raise ConanInvalidConfiguration(f"{self.ref} is a static library on Windows: its names are not marked for a DLL")
+            raise ConanInvalidConfiguration("pierce is static on Windows: its names are not marked for a DLL")
 
     def build_requirements(self):
         self.tool_requires("cmake/[>=3.25]")
