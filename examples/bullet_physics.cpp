@@ -140,6 +140,7 @@ int main(int argc, char** argv) {
     app.footer(k_colours);
     app.add_option("--rays", rays, "How many of each kind (20000)")->check(CLI::Range(1, 10'000'000))->option_text("N");
     app.add_option("--tolerance", tolerance, "How far from Bullet's car pierce's may get, in meters (0.01)")
+        ->check(show::finite)
         ->check(CLI::Range(0.0, 100.0))
         ->option_text("METERS");
     show::add_demo_options(app, options);

@@ -199,9 +199,11 @@ int main(int argc, char** argv) {
     app.footer(k_colours);
     app.add_option("--bullets", count, "How many bullets (500)")->check(CLI::Range(1, 1'000'000))->option_text("N");
     app.add_option("--skin", skin, "How far plain floats keep from what they hit, in meters, up to 1 (0)")
+        ->check(show::finite)
         ->check(CLI::Range(0.0, 1.0))
         ->option_text("METERS");
     app.add_option("--offset", offset, "X, y and z of the hall's lower corner, in meters, up to 100000 (1000)")
+        ->check(show::finite)
         ->check(CLI::Range(-1e5, 1e5))
         ->option_text("METERS");
     show::add_demo_options(app, options);

@@ -16,6 +16,7 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 
+#include "show/demo.h"
 #include "show/image.h"
 #include "show/shapes.h"
 
@@ -26,7 +27,7 @@ using Vec3 = Eigen::Vector3f;
 struct Scanner {
     int beams = 64;      // from 25 degrees below the horizon to 15 above
     int columns = 1024;  // in a turn
-    float reach = 100;   // in the units of the mesh
+    float reach = 0;     // in the units of the mesh
 };
 
 /// One turn while the scanner goes from `from` to `to`, column by column. y is up.
@@ -46,13 +47,13 @@ std::vector<pierce::Ray<float>> turn(const Scanner& scanner, const Vec3& from, c
     return rays;
 }
 
-/// Near is bright; what nothing came back from is blue.
+/// Near is bright, down to a sixteenth at the end of the rays; what nothing came back from is blue.
 show::Image range_image(const Scanner& scanner, const std::vector<pierce::Hit<float>>& hits) {
     show::Image image{scanner.columns, scanner.beams, {}};
     for (int row = scanner.beams - 1; row >= 0; --row)
         for (int column = 0; column < scanner.columns; ++column) {
             const auto& hit = hits[static_cast<std::size_t>(column * scanner.beams + row)];
-            const auto grey = static_cast<std::uint8_t>(hit ? 255 / (1 + 0.15f * hit.exact_fraction) : 0);
+            const auto grey = static_cast<std::uint8_t>(hit ? 255 / (1 + 15 * hit.exact_fraction / scanner.reach) : 0);
             image.rgb.insert(image.rgb.end(), {grey, grey, static_cast<std::uint8_t>(hit ? grey : 60)});
         }
     return image;
@@ -79,20 +80,29 @@ void write_cloud(const std::filesystem::path& path, const std::vector<pierce::Ra
 
 int main(int argc, char** argv) {
     std::filesystem::path mesh_file, range_file = "range.png", cloud_file = "cloud.ply";
-    std::vector<float> from = {4, 1.5f, 4}, to = {36, 1.5f, 36};
+    std::vector<float> from, to;
     int turns = 10;
     Scanner scanner;
     CLI::App app("A spinning lidar is carried through a scene, y up: a picture of distances and a cloud of points.",
                  "lidar");
     app.add_option("MESH", mesh_file, "A mesh: OBJ, OFF, PLY or STL; else a hall of 40 x 12 x 40 is made")
         ->option_text(" ");
-    app.add_option("--from", from, "Where it begins (4,1.5,4)")->delimiter(',')->expected(3)->option_text("X,Y,Z");
-    app.add_option("--to", to, "Where it ends (36,1.5,36)")->delimiter(',')->expected(3)->option_text("X,Y,Z");
+    app.add_option("--from", from, "Where it begins; else near the corner of least x and z, an eighth of the height up")
+        ->delimiter(',')
+        ->expected(3)
+        ->check(show::finite)
+        ->option_text("X,Y,Z");
+    app.add_option("--to", to, "Where it ends; else near the opposite corner")
+        ->delimiter(',')
+        ->expected(3)
+        ->check(show::finite)
+        ->option_text("X,Y,Z");
     app.add_option("--turns", turns, "How often it turns on its way (10)")
         ->check(CLI::Range(1, 1'000'000))
         ->option_text("N");
-    app.add_option("--reach", scanner.reach, "How far its rays go (100)")
-        ->check(CLI::PositiveNumber)
+    app.add_option("--reach", scanner.reach, "How far its rays go; else twice the mesh's diagonal")
+        ->check(show::finite)
+        ->check(CLI::Range(1e-30, 1e30))
         ->option_text("LENGTH");
     app.add_option("--range", range_file, "The last turn as a PNG picture: brighter is nearer (range.png)")
         ->option_text("FILE");
@@ -103,7 +113,14 @@ int main(int argc, char** argv) {
             mesh_file.empty() ? show::hall(1, Eigen::Isometry3d::Identity()) : pierce::read_mesh<float>(mesh_file);
         const pierce::CollisionMesh<float> mesh(soup.view(), {.executor = pierce::tbb_executor()});
 
-        const Vec3 start(from[0], from[1], from[2]), end(to[0], to[1], to[2]);
+        Eigen::AlignedBox3f box;
+        for (const Vec3& position : soup.positions) box.extend(position);
+        const auto place = [&box](const std::vector<float>& asked, const Vec3& part) {
+            return asked.empty() ? Vec3(box.min() + part.cwiseProduct(box.diagonal()))
+                                 : Vec3(asked[0], asked[1], asked[2]);
+        };
+        const Vec3 start = place(from, {0.1f, 0.125f, 0.1f}), end = place(to, {0.9f, 0.125f, 0.9f});
+        if (scanner.reach == 0) scanner.reach = 2 * box.diagonal().norm();
         std::vector<pierce::Ray<float>> rays, all_rays;
         std::vector<pierce::Hit<float>> hits, all_hits;
         double seconds = 0;

@@ -3,6 +3,7 @@
 //   pick [MESH X Y Z DX DY DZ]      without arguments: a cube, from above
 #include <cstdlib>
 #include <iostream>
+#include <string_view>
 
 #include <pierce/openmesh.h>
 #include <pierce/pierce.h>
@@ -33,10 +34,12 @@ Mesh cube() {
 
 int main(int argc, char** argv) {
     if (argc != 1 && argc != 8) {
-        std::cerr << "usage: pick [MESH X Y Z DX DY DZ]\n"
-                     "MESH: a file that OpenMesh reads; the ray goes from (X Y Z) into the direction (DX DY DZ).\n"
-                     "Without arguments: a cube, from above.\n";
-        return 2;
+        const bool asks_for_help = argc == 2 && std::string_view(argv[1]) == "--help";
+        (asks_for_help ? std::cout : std::cerr)
+            << "usage: pick [MESH X Y Z DX DY DZ]\n"
+               "MESH: a file that OpenMesh reads; the ray goes from (X Y Z) into the direction (DX DY DZ).\n"
+               "Without arguments: a cube, from above.\n";
+        return asks_for_help ? 0 : 2;
     }
     Mesh mesh = cube();
     pierce::Ray<double> ray = {{0.25, 0.5, 3}, {0.1, 0.05, -1}};
@@ -45,9 +48,13 @@ int main(int argc, char** argv) {
             std::cerr << "pick: " << argv[1] << " can't be read\n";
             return 2;
         }
-        for (int k = 0; k < 3; ++k) {
-            ray.origin[k] = std::strtod(argv[2 + k], nullptr);
-            ray.direction[k] = std::strtod(argv[5 + k], nullptr);
+        for (int k = 0; k < 6; ++k) {
+            char* end = nullptr;
+            (k < 3 ? ray.origin[k] : ray.direction[k - 3]) = std::strtod(argv[2 + k], &end);
+            if (end == argv[2 + k] || *end != 0) {
+                std::cerr << "pick: " << argv[2 + k] << " is no number\n";
+                return 2;
+            }
         }
     }
     mesh.update_normals();

@@ -201,12 +201,14 @@ int main(int argc, char** argv) {
         ->option_text(" ");
     app.add_option("--segment", ends, "From where to where; else through the middle of the mesh")
         ->expected(6)
+        ->check(show::finite)
         ->option_text("X Y Z X Y Z");
     app.add_option("--sides", query.options.sides, "Which sides of faces count: front, back or both (front)")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, pierce::Sides>{
+        ->transform(CLI::Transformer(std::map<std::string, pierce::Sides>{
             {"front", pierce::Sides::front}, {"back", pierce::Sides::back}, {"both", pierce::Sides::both}}))
         ->option_text("SIDES");
     app.add_option("--max-fraction", query.options.max_fraction, "Hits count up to this fraction of the segment")
+        ->check(show::finite)
         ->option_text("F");
     app.add_option("--picture", picture, "Draw it into this PNG file")->option_text("FILE");
     app.add_option("--obj", obj, "Write it as lines into this OBJ file")->option_text("FILE");
@@ -218,7 +220,9 @@ int main(int argc, char** argv) {
         if (ends.empty()) {
             Eigen::AlignedBox3f box;
             for (const Vec3& position : soup.positions) box.extend(position);
-            const Vec3 way = 0.6f * box.diagonal().cwiseProduct(Vec3(1, 0.3f, 0.2f));
+            // A flat mesh is crossed as well.
+            const Vec3 size = box.diagonal().cwiseMax(0.1f * box.diagonal().norm());
+            const Vec3 way = 0.6f * size.cwiseProduct(Vec3(1, 0.3f, 0.2f));
             query.segment = {box.center() + way, box.center() - way};
         } else {
             query.segment = {Vec3(ends[0], ends[1], ends[2]), Vec3(ends[3], ends[4], ends[5])};

@@ -31,6 +31,8 @@ struct DemoOptions {
 
 /// Adds the options above; their values are the defaults that `--help` names.
 void add_demo_options(CLI::App& app, DemoOptions& options);
+/// For the `check` of an option: what is wrong with a text that is no finite number, else nothing.
+std::string finite(const std::string& text);
 /// Those of a view alone: size, samples, azimuth and elevation.
 void add_view_options(CLI::App& app, View& view);
 

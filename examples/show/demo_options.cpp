@@ -1,6 +1,7 @@
 // The command line that all demos have. See demo.h.
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <utility>
 
@@ -25,6 +26,12 @@ void add_demo_options(CLI::App& app, DemoOptions& options) {
     add_view_options(app, options.view);
 }
 
+std::string finite(const std::string& text) {
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    return end != text.c_str() && *end == 0 && std::isfinite(number) ? "" : text + " is no finite number";
+}
+
 void add_view_options(CLI::App& app, View& view) {
     app.add_option(
            "--size",
@@ -39,8 +46,10 @@ void add_view_options(CLI::App& app, View& view) {
         ->option_text("N");
     const auto degrees = [](double angle) { return " (" + std::to_string(std::lround(angle)) + ")"; };
     app.add_option("--azimuth", view.azimuth, "Where to look from, in degrees" + degrees(view.azimuth))
+        ->check(finite)
         ->option_text("DEGREES");
     app.add_option("--elevation", view.elevation, "The same, above the horizon" + degrees(view.elevation))
+        ->check(finite)
         ->option_text("DEGREES");
 }
 

@@ -64,6 +64,9 @@ extern "C" {
 
 using show::page;
 
+/// Not after `--help`.
+int page_has_demo() { return page.demo ? 1 : 0; }
+
 /// Some steps; then the words and controls are up to date.
 void page_step(int steps) {
     for (int k = 0; k < steps; ++k) {

@@ -198,6 +198,9 @@ void Window::set_mesh(const pierce::TriangleSoup<float>& soup, const Paint& pain
             impl_->box.extend(corner.cast<double>());
         }
     }
+    // OpenGL's floats and the sliders' have to hold some multiples of it.
+    if (!impl_->box.isEmpty() && impl_->box.diagonal().norm() > 1e30)
+        throw std::runtime_error("the mesh is too large for a window");
 }
 
 void Window::frame(std::span<const Dot> dots, std::span<const Line> lines, const std::function<void()>& panel,

@@ -25,6 +25,7 @@ class Window {
     /// False once the user has closed it.
     [[nodiscard]] bool is_open() const;
     /// What is drawn from now on. Sides that are not seen one looks through.
+    /// Throws std::runtime_error for a mesh of more than 10^30 units.
     void set_mesh(const pierce::TriangleSoup<float>& soup, const Paint& paint);
     /// Draws a frame, and waits for the display. `panel` may call Dear ImGui: a window of its own is open. What is seen
     /// goes to `screenshot`, if given.

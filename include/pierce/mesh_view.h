@@ -86,8 +86,8 @@ class TrianglesView {
 
 /// Positions and triangles, not owned. It has to stay alive only while a `CollisionMesh` is built from it.
 ///
-///     MeshView<float>{positions, triangles}                     // vectors of Vec3<float> and IndexTriple
-///     MeshView<float>{{&vertices[0].x, vertices.size(), sizeof(Vertex)}, indices}     // the buffers of a game
+///     const MeshView<float> view{positions, triangles};         // vectors of Vec3<float> and IndexTriple
+///     const MeshView<float> level{{&vertices[0].x, vertices.size(), sizeof(Vertex)}, indices};  // a game's buffers
 ///
 /// The mesh may be open, non-manifold, self-intersecting, and may hold zero-area or duplicate triangles: all are kept.
 /// `faces`, if it is not empty, gives for each triangle the number that the caller knows it by (the polygon of a file

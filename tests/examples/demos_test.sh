@@ -49,18 +49,35 @@ picture drum.png 20000
 # A ball that walks is not held up by the seams of the floor, and overlaps nothing: else its status is not 0.
 run character --picture character.png --size 320x240
 prints "900 steps, [0-9]+ contacts in the last one, no overlap"
+prints "speed kept in [1-9][0-9]{2} steps on the flat floor: 100 %"
 picture character.png 5000
 
+# refuses PROGRAM ARG...: its status is not 0, and no signal's, and it says why.
+refuses() {
+    what=$*
+    timeout 100 "$programs/$1" "${@:2}" >out 2>err </dev/null
+    status=$?
+    [ "$status" -gt 0 ] && [ "$status" -lt 124 ] && [ -s err ] || fail "$what: status $status"
+}
+printf '%s\n' "v 0 0 0" "v 1 0 0" "v 1 1 0" "v 0 1 0" "f 1 2 3" "f 1 3 4" >flat.obj
 # A file that a demo would not read is no argument of it.
-for demo in bullets drum character; do
-    what="$demo level.obj"
-    timeout 100 "$programs/$demo" level.obj --no-window --steps 0 >out 2>err </dev/null && fail "$what: is taken"
-done
+for demo in bullets drum character; do refuses "$demo" level.obj --no-window --steps 0; done
+refuses rain missing.obj --no-window
+refuses rain --azimuth nan --no-window --steps 0
+refuses bullets --skin nan --no-window --steps 0
+refuses lidar --from nan,1,1
+refuses visit_view --sides left
+refuses pick flat.obj 0 0 1 0 0 down
+run pick --help
 
 run lidar --turns 2
 prints "131072 of 131072 rays came back, .* million rays a second"
 picture range.png 5000
 [ "$(wc -c <cloud.ply)" -eq $((131072 * 16 + $(head -n 8 cloud.ply | wc -c))) ] || fail "$what: size of the cloud"
+# It goes through the mesh that it is given, of any size.
+printf '%s\n' "v 0 0 0" "v .01 0 0" "v 0 .01 0" "v 0 0 .01" "f 1 3 2" "f 1 2 4" "f 1 4 3" "f 2 3 4" >small.obj
+run lidar small.obj --turns 1
+prints "[1-9][0-9]{4} of 65536 rays came back, .*"
 
 run pick
 prints "face 3 at \(0\.45 0\.6 1\), its corner of the largest weight: vertex 7"
@@ -100,6 +117,8 @@ run visit_view steps.obj --segment 1 1 3 1 1 -5 --sides back --max-fraction 0.5
 prints "it hits nothing"
 prints " +1  beyond max_fraction"
 prints " +2  passes from the other side"
+run visit_view flat.obj
+prints "it hits face [01] at .*"
 run visit_view
 prints "it hits face [0-9]+ at .*"
 prints "on the way to it are the boxes of [1-9][0-9]* nodes and [1-9][0-9]* clusters"
