@@ -48,12 +48,12 @@ class HalfSpaces {
     void pop() { --count_; }
 
     /// The point of all of them that is nearest to 0, within a hundredth or so; false where it is further than `reach`,
-    /// or is not found in 64 sweeps: two that meet at an angle a come nearer by (cos a)^2 a sweep, so of those at 15
-    /// degrees or more it is, and of those with nothing in common not.
+    /// or two planes meet at less than a twentieth of a degree.
     ///
     /// Hildreth's method (1957): x = sum of l_i normal_i, and one l_i after the other is set to what its own half-space
     /// asks for, but not below 0. It climbs the dual function sum l_i least_i - x . x / 2, which is nowhere above half
-    /// the square that is looked for.
+    /// the square that is looked for. Two that meet at an angle a come nearer by (cos a)^2 a sweep: at 15 degrees or
+    /// more 64 sweeps will do. Where they don't, the corners are gone through.
     [[nodiscard]] bool nearest(double reach, Point& x) const {
         std::array<double, k_most> share{};
         x = {};
@@ -70,10 +70,49 @@ class HalfSpaces {
             if (!(dual <= reach * reach / 2)) return false;
             if (most < 0.01) return true;
         }
-        return false;
+        return nearest_corner(reach, x);
     }
 
   private:
+    /// The same by all places that one to three planes have in common and that are nearest to 0: it is one of these.
+    [[nodiscard]] bool nearest_corner(double reach, Point& x) const {
+        double least = reach * reach;
+        bool found = false;
+        const auto try_corner = [&](const Point& corner) {
+            const double square = dot_product(corner, corner);
+            if (!(square <= least)) return;
+            for (std::size_t i = 0; i < count_; ++i)
+                if (!(dot_product(all_[i].normal, corner) >= all_[i].least - 0.01)) return;
+            least = square;
+            x = corner;
+            found = true;
+        };
+        const auto sum = [](const Point& p, double by_p, const Point& q, double by_q) {
+            return Point{by_p * p[0] + by_q * q[0], by_p * p[1] + by_q * q[1], by_p * p[2] + by_q * q[2]};
+        };
+        for (std::size_t i = 0; i < count_; ++i) {
+            const auto& [n, n_least] = all_[i];
+            try_corner(sum(n, n_least, n, 0));
+            for (std::size_t j = i + 1; j < count_; ++j) {
+                const auto& [m, m_least] = all_[j];
+                const Point line = cross_product(n, m);
+                const double sine2 = dot_product(line, line);
+                if (sine2 < k_least_sine * k_least_sine) continue;
+                const Point on_line =
+                    sum(cross_product(m, line), n_least / sine2, cross_product(line, n), m_least / sine2);
+                try_corner(on_line);
+                for (std::size_t k = j + 1; k < count_; ++k) {
+                    const auto& [o, o_least] = all_[k];
+                    const double along = dot_product(line, o);
+                    if (std::abs(along) < k_least_sine) continue;
+                    try_corner(sum(on_line, 1, line, (o_least - dot_product(o, on_line)) / along));
+                }
+            }
+        }
+        return found;
+    }
+    static constexpr double k_least_sine = 1e-3;
+
     std::array<HalfSpace, k_most> all_{};
     std::size_t count_ = 0;
 };
