@@ -14,11 +14,12 @@
 // tried something and failed, each place on a lattice of one unit is tried; and only then points back along the way
 // from the start.
 //
-// Cost: a half-space takes 64 sweeps of at most 8, and 92 corners where they don't do, some microseconds at worst; a try is a query among the
-// triangles of the shortlist. There are 2 * `k_most_tries` + 8 tries at most, and the lattice has 7,152 places, some
-// 1,900 of them a grain off the plane: all but a few are known to be hidden without being asked about (nearby.h). That
-// happens a few times in 10^5 hits on bumpy meshes, and in the tips of thin spikes seen from inside. What this does not
-// find are clear places that hold no point of that lattice and are missed by all eight roundings.
+// Cost: a half-space takes 64 sweeps of at most 8, and 92 corners where they don't do, some microseconds at worst; a
+// try is a query among the triangles of the shortlist. There are 2 * `k_most_tries` + 8 tries at most, and the lattice
+// has 7,152 places, some 1,900 of them a grain off the plane: all but a few are known to be hidden without being asked
+// about (nearby.h). That happens a few times in 10^5 hits on bumpy meshes, and in the tips of thin spikes seen from
+// inside. What this does not find are clear places that hold no point of that lattice and are missed by all eight
+// roundings.
 #pragma once
 
 #include <algorithm>
