@@ -225,7 +225,8 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {  // all ranks see the same, one says it
         std::ostringstream nowhere;
-        return ranks.is_first() ? app.exit(error) : app.exit(error, nowhere, nowhere);
+        const int code = ranks.is_first() ? app.exit(error) : app.exit(error, nowhere, nowhere);
+        return code == 0 ? 0 : 2;  // --help is no error
     }
     try {
         return run(ranks, options);

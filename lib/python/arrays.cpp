@@ -119,13 +119,14 @@ Pairs<Scalar> pairs_of(const char* call, const py::object& first, const char* of
 
 template <class Scalar>
 Vec3<Scalar> vector_of(const py::object& given, const char* what) {
-    const Points<double> points = points_of<double>(given, what);
-    if (!points.alone) refuse_shape(what, points.owner, "(3,)");
+    const py::array array = array_of(given);
+    if (array.ndim() != 1 || array.shape(0) != 3) refuse_shape(what, array, "(3,)");
+    const Points<double> points = points_of<double>(array, what);
     const Vec3<double> exact = points.view[0];
     const Vec3<Scalar> vector = exact.cast<Scalar>();
     for (int k = 0; k < 3; ++k)
         if (std::isfinite(exact[k]) && static_cast<double>(vector[k]) != exact[k])
-            throw py::type_error(std::string(what) + ": " + std::to_string(exact[k]) +
+            throw py::type_error(std::string(what) + ": " + text_of(py::float_(exact[k])) +
                                  " is no float32 number, as the mesh has: round it yourself, numpy.float32(...)");
     return vector;
 }
@@ -134,7 +135,9 @@ template <class Scalar>
 Values<Scalar> values_of(const py::object& given, const char* what, std::size_t count) {
     Values<Scalar> values;
     if (PyFloat_Check(given.ptr()) || PyLong_Check(given.ptr())) {
-        values.one = static_cast<Scalar>(given.cast<double>());
+        const double number = PyFloat_AsDouble(given.ptr());
+        if (PyErr_Occurred() != nullptr) throw py::error_already_set();  // OverflowError: an integer that is too large
+        values.one = static_cast<Scalar>(number);
         return values;
     }
     values.owner = numbers_of<Scalar>(given, what);
@@ -209,11 +212,16 @@ Mask mask_of(const py::object& given) {
     const char kind = mask.owner.dtype().kind();
     if (kind != 'b' && kind != 'u' && kind != 'i') refuse_type("mask", mask.owner, "where flags are needed");
     if (mask.owner.ndim() != 1) refuse_shape("mask", mask.owner, "(number of faces,)");
-    if (mask.owner.size() == 0) throw py::value_error("mask: it is empty; None stands for all faces");
     if (mask.owner.itemsize() != 1) mask.owner = converted(mask.owner, "bool");
     mask.owner = side_by_side(mask.owner);
     mask.view = {static_cast<const std::uint8_t*>(mask.owner.data()), static_cast<std::size_t>(mask.owner.size())};
     return mask;
+}
+
+void FaceCount::check(const char* what, std::size_t size) const {
+    if (size == least || (size > least && !exact)) return;
+    throw py::value_error(std::string(what) + ": " + std::to_string(size) + " entries, where " +
+                          (exact ? "" : "at least ") + std::to_string(least) + " are needed, one for each face");
 }
 
 template py::array numbers_of<float>(const py::object&, const char*);

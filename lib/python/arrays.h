@@ -104,6 +104,15 @@ struct Mask {
 };
 Mask mask_of(const py::object& given);
 
+/// How many entries an array needs that has one for each face, by its number.
+struct FaceCount {
+    std::size_t least = 0;  ///< one more than the largest number of a face
+    bool exact = true;      ///< the faces are numbered by rows: more entries are one of another mesh
+
+    /// ValueError where an array of this size is for other faces.
+    void check(const char* what, std::size_t size) const;
+};
+
 /// A new array whose entries are not set, of shape (n,), or (n, 3) for points.
 template <class Value>
 py::array_t<Value> new_array(std::size_t size) {

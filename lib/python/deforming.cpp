@@ -18,8 +18,8 @@ class Deforming {
     using Kept = std::shared_ptr<DeformingMesh<Scalar>>;
 
     template <class Scalar>
-    explicit Deforming(DeformingMesh<Scalar>&& mesh)
-        : kept_(std::make_shared<DeformingMesh<Scalar>>(std::move(mesh))) {}
+    Deforming(DeformingMesh<Scalar>&& mesh, const FaceCount& faces)
+        : kept_(std::make_shared<DeformingMesh<Scalar>>(std::move(mesh))), flags_(faces) {}
 
     // One thread at a time begins a step; all others may ask meanwhile.
     template <class Begin>
@@ -28,11 +28,12 @@ class Deforming {
         std::visit([&](const auto& mesh) { begin(*mesh); }, kept_);
     }
     [[nodiscard]] Step step() const {
-        return std::visit([](const auto& mesh) { return Step(mesh->step()); }, kept_);
+        return std::visit([&](const auto& mesh) { return Step(mesh->step(), flags_); }, kept_);
     }
 
   private:
     std::variant<Kept<float>, Kept<double>> kept_;
+    FaceCount flags_;
     Use use_;
 };
 
@@ -41,7 +42,8 @@ Deforming make(const py::object& vertices, const py::object& faces, const py::ob
                const std::string& backend, int threads) {
     const BuildOptions build = build_options(broadphase, cell_size, max_grid_bytes, backend, threads);
     return made(vertices, faces, face_numbers, [&]<class Scalar>(const MeshView<Scalar>& view) {
-        return Deforming(DeformingMesh<Scalar>(view, {.build = build, .rebuild_above = rebuild_above}));
+        return Deforming(DeformingMesh<Scalar>(view, {.build = build, .rebuild_above = rebuild_above}),
+                         face_count(view));
     });
 }
 
@@ -69,10 +71,10 @@ py::dict sweep(const Step& self, const py::object& starts, const py::object& end
     return self.ask([&](const auto& step) {
         using Scalar = ScalarOf<decltype(step)>;
         const auto ways = pairs_of<Scalar>("sweep", starts, "starts", ends, "ends");
-        const Filters filters(sides, max_fraction, mask);
+        const Filters filters(sides, max_fraction, mask, self.flags());
         const auto out = columns_of_sweeps<Scalar>(ways.size);
         std::vector<std::optional<SweepHit<Scalar>>> hits;
-        in_calls(ways.size, {Threads(threads), progress}, k_slow,
+        in_calls(ways.size, {Threads(threads), progress},
                  [&](std::size_t first, std::size_t count, const Executor& executor) {
                      hits.resize(count);
                      step.sweeps(ways.segments(first, count), hits, filters.options, executor);

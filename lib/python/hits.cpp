@@ -51,9 +51,9 @@ py::dict first_hits(const Mesh& self, const py::object& from, const py::object& 
     return self.ask([&](const auto& mesh) {
         using Scalar = ScalarOf<decltype(mesh)>;
         const Given<Scalar> ways("first_hits", from, to, limit);
-        const Filters filters(sides, max_fraction, mask);
+        const Filters filters(sides, max_fraction, mask, self.flags());
         const HitColumns<Scalar> out(ways.size(), wanted);
-        in_calls(ways.size(), {Threads(threads), progress}, k_quick,
+        in_calls(ways.size(), {Threads(threads), progress},
                  [&](std::size_t first, std::size_t count, const Executor& executor) {
                      mesh.first_hits(ways.part(first, count), out.part(first, count), filters.options, executor);
                  });
@@ -68,10 +68,10 @@ py::array any_hits(const Mesh& self, const py::object& from, const py::object& t
     return self.ask([&](const auto& mesh) {
         using Scalar = ScalarOf<decltype(mesh)>;
         const Given<Scalar> ways("any_hits", from, to, limit);
-        const Filters filters(sides, max_fraction, mask);
+        const Filters filters(sides, max_fraction, mask, self.flags());
         py::array_t<bool> answers = new_array<bool>(ways.size());
         const std::span<std::uint8_t> out(bytes_of(answers), ways.size());
-        in_calls(ways.size(), {Threads(threads), progress}, k_quick,
+        in_calls(ways.size(), {Threads(threads), progress},
                  [&](std::size_t first, std::size_t count, const Executor& executor) {
                      mesh.any_hits(ways.part(first, count), out.subspan(first, count), filters.options, executor);
                  });
@@ -102,13 +102,13 @@ py::tuple all_hits(const Mesh& self, const py::object& from, const py::object& t
     return self.ask([&](const auto& mesh) -> py::tuple {
         using Scalar = ScalarOf<decltype(mesh)>;
         const Given<Scalar> ways("all_hits", from, to, limit);
-        const Filters filters(sides, max_fraction, mask);
+        const Filters filters(sides, max_fraction, mask, self.flags());
         const Wanted wants(wanted, HitColumns<Scalar>::k_names);
         py::array_t<std::int64_t> offsets = new_array<std::int64_t>(ways.size() + 1);
         std::int64_t* const starts = offsets.mutable_data();
         starts[0] = 0;
         std::vector<std::size_t> rows;
-        in_calls(ways.size(), {Threads(threads), py::none()}, k_quick,
+        in_calls(ways.size(), {Threads(threads), py::none()},
                  [&](std::size_t first, std::size_t count, const Executor& executor) {
                      rows.resize(count + 1);
                      mesh.all_hits(ways.part(first, count), rows, {}, filters.options, executor);
@@ -120,7 +120,7 @@ py::tuple all_hits(const Mesh& self, const py::object& from, const py::object& t
         py::array_t<bool> hit = new_array<bool>(total);
         std::fill_n(hit.mutable_data(), total, true);
         std::vector<Hit<Scalar>> hits;
-        in_calls(ways.size(), {Threads(threads), progress}, k_slow,
+        in_calls(ways.size(), {Threads(threads), progress},
                  [&](std::size_t first, std::size_t count, const Executor& executor) {
                      rows.resize(count + 1);
                      hits.resize(static_cast<std::size_t>(starts[first + count] - starts[first]));
@@ -142,7 +142,7 @@ py::array crossings(const Mesh& self, const py::object& from, const py::object& 
         const Given<Scalar> ways("crossings", from, to, limit);
         py::array_t<int> answers = new_array<int>(ways.size());
         const std::span<int> out(answers.mutable_data(), ways.size());
-        in_calls(ways.size(), {Threads(threads), progress}, k_quick,
+        in_calls(ways.size(), {Threads(threads), progress},
                  [&](std::size_t first, std::size_t count, const Executor& executor) {
                      mesh.crossings(ways.part(first, count), out.subspan(first, count), nullptr, executor);
                  });

@@ -1,6 +1,7 @@
 // What meshes of all kinds are made of: arrays, and how to build.
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include <python/arrays.h>
@@ -23,6 +24,13 @@ inline BuildOptions build_options(const std::string& broadphase, double cell_siz
     options.backend = backend;
     options.executor = Threads(threads).executor();
     return options;
+}
+
+/// What an array of one entry for each face of this mesh is to have.
+template <class Scalar>
+FaceCount face_count(const MeshView<Scalar>& mesh) {
+    if (mesh.faces.empty()) return {mesh.triangles.size(), true};
+    return {std::size_t{*std::max_element(mesh.faces.begin(), mesh.faces.end())} + 1, false};
 }
 
 /// Calls `make(MeshView<float>)` where vertices are floats, else `make(MeshView<double>)`, without the lock.

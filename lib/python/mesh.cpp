@@ -18,8 +18,9 @@ Mesh make(const py::object& vertices, const py::object& faces, const py::object&
           const std::string& broadphase, double cell_size, std::size_t max_grid_bytes, const std::string& backend,
           int threads) {
     const BuildOptions options = build_options(broadphase, cell_size, max_grid_bytes, backend, threads);
-    return made(vertices, faces, face_numbers,
-                [&]<class Scalar>(const MeshView<Scalar>& view) { return Mesh(CollisionMesh<Scalar>(view, options)); });
+    return made(vertices, faces, face_numbers, [&]<class Scalar>(const MeshView<Scalar>& view) {
+        return Mesh(CollisionMesh<Scalar>(view, options), face_count(view));
+    });
 }
 
 // The vector's memory, as an array that keeps it.

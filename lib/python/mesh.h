@@ -8,6 +8,7 @@
 
 #include <pierce/pierce.h>
 #include <pybind11/pybind11.h>
+#include <python/arrays.h>
 
 namespace pierce::python {
 
@@ -58,13 +59,17 @@ class Mesh {
 
     /// One that may change.
     template <class Scalar>
-    explicit Mesh(CollisionMesh<Scalar>&& mesh)
-        : kept_(Kept<Scalar>(std::make_shared<CollisionMesh<Scalar>>(std::move(mesh)))), changes_(true) {}
+    Mesh(CollisionMesh<Scalar>&& mesh, const FaceCount& faces)
+        : kept_(Kept<Scalar>(std::make_shared<CollisionMesh<Scalar>>(std::move(mesh)))),
+          flags_(faces),
+          changes_(true) {}
     /// One that belongs to a step, and stays as it is.
     template <class Scalar>
-    explicit Mesh(Kept<Scalar> mesh) : kept_(std::move(mesh)) {}
+    Mesh(Kept<Scalar> mesh, const FaceCount& faces) : kept_(std::move(mesh)), flags_(faces) {}
 
     [[nodiscard]] bool is_double() const { return kept_.index() == 1; }
+    /// What an array of one entry for each face is to have.
+    [[nodiscard]] const FaceCount& flags() const { return flags_; }
 
     /// Calls `ask(const CollisionMesh<Scalar>&)`.
     template <class Ask>
@@ -83,6 +88,7 @@ class Mesh {
 
   private:
     std::variant<Kept<float>, Kept<double>> kept_;
+    FaceCount flags_;
     bool changes_ = false;
     mutable Use use_;
 };

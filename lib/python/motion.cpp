@@ -49,7 +49,7 @@ py::dict swept(const CollisionMesh<Scalar>& mesh, const Pairs<Scalar>& ways, con
     using Hits = std::conditional_t<std::is_same_v<Motion, RigidMotion>, std::optional<RigidHit<Scalar>>,
                                     std::optional<SweepHit<Scalar>>>;
     std::vector<Hits> hits;
-    in_calls(ways.size, how, k_slow, [&](std::size_t first, std::size_t count, const Executor& executor) {
+    in_calls(ways.size, how, [&](std::size_t first, std::size_t count, const Executor& executor) {
         hits.resize(count);
         mesh.sweeps(ways.segments(first, count), motion, std::span<Hits>(hits), filters.options, executor);
         out.write(first, hits);
@@ -64,8 +64,8 @@ py::dict sweep_straight(const Mesh& self, const py::object& starts, const py::ob
         using Scalar = ScalarOf<decltype(mesh)>;
         const auto ways = pairs_of<Scalar>("sweep", starts, "starts", ends, "ends");
         const Translation<Scalar> motion{vector_of<Scalar>(from, "start"), vector_of<Scalar>(to, "end")};
-        return swept(mesh, ways, motion, columns_of_sweeps<Scalar>(ways.size), Filters(sides, max_fraction, mask),
-                     {Threads(threads), progress});
+        return swept(mesh, ways, motion, columns_of_sweeps<Scalar>(ways.size),
+                     Filters(sides, max_fraction, mask, self.flags()), {Threads(threads), progress});
     });
 }
 
@@ -75,8 +75,8 @@ py::dict sweep_turning(const Mesh& self, const py::object& starts, const py::obj
     return self.ask([&](const auto& mesh) {
         using Scalar = ScalarOf<decltype(mesh)>;
         const auto ways = pairs_of<Scalar>("sweep", starts, "starts", ends, "ends");
-        return swept(mesh, ways, motion, columns_of_turns<Scalar>(ways.size), Filters(sides, max_fraction, mask),
-                     {Threads(threads), progress});
+        return swept(mesh, ways, motion, columns_of_turns<Scalar>(ways.size),
+                     Filters(sides, max_fraction, mask, self.flags()), {Threads(threads), progress});
     });
 }
 

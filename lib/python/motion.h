@@ -20,8 +20,8 @@ class Step {
     using Kept = std::shared_ptr<const DeformationStep<Scalar>>;
 
     template <class Scalar>
-    explicit Step(DeformationStep<Scalar> step)
-        : kept_(Kept<Scalar>(std::make_shared<DeformationStep<Scalar>>(std::move(step)))) {}
+    Step(DeformationStep<Scalar> step, const FaceCount& faces)
+        : kept_(Kept<Scalar>(std::make_shared<DeformationStep<Scalar>>(std::move(step)))), flags_(faces) {}
 
     /// Calls `ask(const DeformationStep<Scalar>&)`.
     template <class Ask>
@@ -32,14 +32,17 @@ class Step {
     [[nodiscard]] Mesh end(bool after) const {
         return std::visit(
             [&]<class Scalar>(const Kept<Scalar>& step) {
-                return Mesh(Mesh::Kept<Scalar>(step, after ? &step->after() : &step->before()));
+                return Mesh(Mesh::Kept<Scalar>(step, after ? &step->after() : &step->before()), flags_);
             },
             kept_);
     }
     [[nodiscard]] bool is_double() const { return kept_.index() == 1; }
+    /// As of a `Mesh`.
+    [[nodiscard]] const FaceCount& flags() const { return flags_; }
 
   private:
     std::variant<Kept<float>, Kept<double>> kept_;
+    FaceCount flags_;
 };
 
 /// Rotation and translation.

@@ -16,8 +16,9 @@ namespace {
 template <class Scalar>
 class Surfaces {
   public:
-    Surfaces(const py::object& restitution, const py::object& friction, const Response<Scalar>& base)
-        : restitution_(of(restitution, "restitution")), friction_(of(friction, "friction")), base_(base) {
+    Surfaces(const py::object& restitution, const py::object& friction, const Response<Scalar>& base,
+             const FaceCount& faces)
+        : restitution_(of(restitution, "restitution", faces)), friction_(of(friction, "friction", faces)), base_(base) {
         base_.restitution = restitution_.one;
         base_.friction = friction_.one;
     }
@@ -34,9 +35,13 @@ class Surfaces {
     }
 
   private:
-    static Values<Scalar> of(const py::object& given, const char* what) {
-        const bool is_array = py::hasattr(given, "__len__");
-        return values_of<Scalar>(given, what, is_array ? py::len(given) : 1);
+    static Values<Scalar> of(const py::object& given, const char* what, const FaceCount& faces) {
+        const bool is_number = PyFloat_Check(given.ptr()) || PyLong_Check(given.ptr());
+        const py::array array = is_number ? py::array() : array_of(given);
+        const std::size_t size = is_number || array.ndim() == 0 ? 1 : static_cast<std::size_t>(array.shape(0));
+        Values<Scalar> values = is_number ? values_of<Scalar>(given, what, size) : values_of<Scalar>(array, what, size);
+        if (values.many()) faces.check(what, size);
+        return values;
     }
     static Scalar at(const Values<Scalar>& values, std::uint32_t face) {
         if (!values.many()) return values.one;
@@ -96,11 +101,11 @@ py::tuple moved(const Target& self, bool bounce, const py::object& positions, co
         const auto given = pairs_of<Scalar>(bounce ? "move_and_bounce" : "move_and_slide", positions, "positions",
                                             velocities, "velocities");
         const auto radii = values_of<Scalar>(radius, "radius", given.size);
-        const Filters filters(sides, std::numeric_limits<double>::infinity(), mask);
+        const Filters filters(sides, std::numeric_limits<double>::infinity(), mask, self.flags());
         Response<Scalar> base;
         base.velocity = vector_of<Scalar>(surface_velocity, "surface_velocity");
         base.rest_speed = static_cast<Scalar>(rest_speed);
-        const Surfaces<Scalar> surfaces(restitution, friction, base);
+        const Surfaces<Scalar> surfaces(restitution, friction, base, self.flags());
         MoveOptions<Scalar> options;
         options.query = filters.options;
         options.max_casts = max_casts;
@@ -110,7 +115,7 @@ py::tuple moved(const Target& self, bool bounce, const py::object& positions, co
         const auto out_contacts = columns_of_contacts<Scalar>(given.size * contacts);
         std::vector<Move<Scalar>> moves;
         std::vector<MoveContact<Scalar>> room;
-        in_calls(given.size, {Threads(threads), progress}, k_slow,
+        in_calls(given.size, {Threads(threads), progress},
                  [&](std::size_t first, std::size_t count, const Executor& executor) {
                      moves.resize(count);
                      room.assign(count * contacts, no_contact<Scalar>());

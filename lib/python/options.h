@@ -10,8 +10,9 @@ namespace pierce::python {
 
 /// `"front"`, `"back"` or `"both"`, or their number.
 inline Sides sides_of(const py::object& given) {
-    if (PyLong_Check(given.ptr())) {
-        const long number = given.cast<long>();
+    if (PyIndex_Check(given.ptr()) != 0) {                                    // of NumPy as well
+        const py::ssize_t number = PyNumber_AsSsize_t(given.ptr(), nullptr);  // clipped
+        if (PyErr_Occurred() != nullptr) throw py::error_already_set();
         if (number >= 0 && number <= 2) return static_cast<Sides>(number);
     } else if (py::isinstance<py::str>(given)) {
         const auto word = given.cast<std::string>();
@@ -27,7 +28,9 @@ struct Filters {
     Mask mask;  ///< kept alive
     QueryOptions options;
 
-    Filters(const py::object& sides, double max_fraction, const py::object& face_mask) : mask(mask_of(face_mask)) {
+    Filters(const py::object& sides, double max_fraction, const py::object& face_mask, const FaceCount& faces)
+        : mask(mask_of(face_mask)) {
+        if (!face_mask.is_none()) faces.check("mask", mask.view.size());
         options.sides = sides_of(sides);
         options.max_fraction = max_fraction;
         options.face_mask = mask.view;

@@ -20,7 +20,7 @@ py::array contains(const Mesh& self, const py::object& given, int threads, const
         const std::size_t size = points.view.size();
         py::array_t<bool> answers = new_array<bool>(size);
         const std::span<std::uint8_t> out(bytes_of(answers), size);
-        in_calls(size, {Threads(threads), progress}, k_quick,
+        in_calls(size, {Threads(threads), progress},
                  [&](std::size_t first, std::size_t count, const Executor& executor) {
                      mesh.contains_points(points.view.part(first, count), out.subspan(first, count), nullptr, executor);
                  });
@@ -35,7 +35,7 @@ py::array winding_numbers(const Mesh& self, const py::object& given, int threads
         const std::size_t size = points.view.size();
         py::array_t<int> answers = new_array<int>(size);
         const std::span<int> out(answers.mutable_data(), size);
-        in_calls(size, {Threads(threads), progress}, k_quick,
+        in_calls(size, {Threads(threads), progress},
                  [&](std::size_t first, std::size_t count, const Executor& executor) {
                      mesh.winding_numbers(points.view.part(first, count), out.subspan(first, count), nullptr, executor);
                  });
@@ -68,7 +68,7 @@ py::tuple locate(const Mesh& self, const py::object& given, int threads, const p
         std::vector<std::pair<std::size_t, std::size_t>> touching;  // points, and where their faces go
         std::size_t faces = 0;
         std::vector<Location> locations;
-        in_calls(size, {Threads(threads), progress}, k_quick,
+        in_calls(size, {Threads(threads), progress},
                  [&](std::size_t first, std::size_t count, const Executor& executor) {
                      locations.resize(count);
                      mesh.locate_points(points.view.part(first, count), locations, nullptr, executor);
@@ -80,7 +80,7 @@ py::tuple locate(const Mesh& self, const py::object& given, int threads, const p
                      }
                  });
         std::vector<FaceTouch> touches(faces);
-        in_calls(touching.size(), {Threads(threads), py::none()}, k_slow,
+        in_calls(touching.size(), {Threads(threads), py::none()},
                  [&](std::size_t first, std::size_t count, const Executor&) {
                      for (std::size_t i = first; i < first + count; ++i)
                          (void)mesh.locate(points.view[touching[i].first],
@@ -100,7 +100,7 @@ py::tuple passages(const Mesh& self, const py::object& start, const py::object& 
         using Scalar = ScalarOf<decltype(mesh)>;
         const auto ends = pairs_of<Scalar>("passages", start, "start", end, "end");
         if (ends.size != 1) throw py::value_error("passages: one segment at a time, start and end of shape (3,)");
-        const Filters filters(sides, max_fraction, mask);
+        const Filters filters(sides, max_fraction, mask, self.flags());
         PassageOptions options;
         options.sides = filters.options.sides;
         options.max_fraction = max_fraction;

@@ -20,7 +20,7 @@ py::list explain(const Mesh& self, const py::object& start, const py::object& en
         using Scalar = ScalarOf<decltype(mesh)>;
         const auto ends = pairs_of<Scalar>("explain", start, "start", end, "end");
         if (ends.size != 1) throw py::value_error("explain: one segment at a time, start and end of shape (3,)");
-        const Filters filters(sides, max_fraction, mask);
+        const Filters filters(sides, max_fraction, mask, self.flags());
         std::vector<FaceVerdict> verdicts;
         {
             const py::gil_scoped_release released;

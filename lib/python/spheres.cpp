@@ -33,11 +33,11 @@ py::dict sweep_spheres(const Mesh& self, const py::object& starts, const py::obj
         using Scalar = ScalarOf<decltype(mesh)>;
         const auto steps = pairs_of<Scalar>("sweep_spheres", starts, "starts", ends, "ends");
         const auto radii = values_of<Scalar>(radius, "radius", steps.size);
-        const Filters filters(py::str("both"), max_fraction, mask);
+        const Filters filters(py::str("both"), max_fraction, mask, self.flags());
         using Row = std::optional<SphereHit<Scalar>>;
         const auto out = columns_of_spheres<Row, Scalar>(steps.size);
         std::vector<Row> hits;
-        in_calls(steps.size, {Threads(threads), progress}, k_slow,
+        in_calls(steps.size, {Threads(threads), progress},
                  [&](std::size_t first, std::size_t count, const Executor& executor) {
                      hits.resize(count);
                      const auto some = steps.segments(first, count);
@@ -71,7 +71,7 @@ py::dict sphere_hits(const Mesh& self, const py::object& start, const py::object
         using Scalar = ScalarOf<decltype(mesh)>;
         const auto steps = pairs_of<Scalar>("sphere_hits", start, "start", end, "end");
         if (steps.size != 1) throw py::value_error("sphere_hits: one step at a time, start and end of shape (3,)");
-        const Filters filters(py::str("both"), max_fraction, mask);
+        const Filters filters(py::str("both"), max_fraction, mask, self.flags());
         return all_of<Scalar>([&](auto room) {
             return mesh.sphere_hits(steps.segments(0, 1)[0], static_cast<Scalar>(radius), room, filters.options);
         });
@@ -83,7 +83,7 @@ py::dict sphere_contacts(const Mesh& self, const py::object& given, double radiu
         using Scalar = ScalarOf<decltype(mesh)>;
         const auto center = points_of<Scalar>(given, "center");
         if (center.view.size() != 1) throw py::value_error("sphere_contacts: one center at a time, of shape (3,)");
-        const Filters filters(py::str("both"), std::numeric_limits<double>::infinity(), mask);
+        const Filters filters(py::str("both"), std::numeric_limits<double>::infinity(), mask, self.flags());
         return all_of<Scalar>([&](auto room) {
             return mesh.sphere_contacts(center.view[0], static_cast<Scalar>(radius), room, filters.options);
         });

@@ -59,17 +59,18 @@ struct How {
     py::object progress;  ///< called with how many are done and how many there are, or None
 };
 
-/// How many queries the first call has: so many that it is long against a call, and short if each of them is slow.
-inline constexpr std::size_t k_quick = std::size_t{1} << 17;
-inline constexpr std::size_t k_slow = std::size_t{1} << 10;
+/// Queries of a call: the first one shows how long they take, which differs by a factor of 10^5 between meshes.
+inline constexpr std::size_t k_first_call = 256;
+inline constexpr std::size_t k_least_in_a_call = 64;
 inline constexpr std::size_t k_most_in_a_call = std::size_t{1} << 20;
 
 /// Calls `some(first, number, executor)` for parts of `count` queries, one after the other, without the lock. What a
 /// signal's handler or `progress` raises ends it.
 template <class Some>
-void in_calls(std::size_t count, const How& how, std::size_t size, Some&& some) {
+void in_calls(std::size_t count, const How& how, Some&& some) {
     using Clock = std::chrono::steady_clock;
-    constexpr auto k_wanted = std::chrono::milliseconds(100);
+    constexpr double k_wanted = 0.1;  // seconds
+    std::size_t size = k_first_call;
     const Executor executor = how.threads.executor();
     for (std::size_t done = 0; done < count;) {
         const std::size_t number = std::min(size, count - done);
@@ -78,10 +79,12 @@ void in_calls(std::size_t count, const How& how, std::size_t size, Some&& some) 
             const py::gil_scoped_release released;
             some(done, number, executor);
         }
-        const auto spent = Clock::now() - start;
+        const double spent = std::chrono::duration<double>(Clock::now() - start).count();
         done += number;
-        if (spent < k_wanted / 2) size = std::min(2 * size, k_most_in_a_call);
-        if (spent > k_wanted * 2) size = std::max<std::size_t>(size / 4, 64);
+        const double better = static_cast<double>(number) * k_wanted / std::max(spent, 1e-6);
+        if (spent < k_wanted / 2 || spent > k_wanted * 2)
+            size = static_cast<std::size_t>(
+                std::clamp(better, static_cast<double>(k_least_in_a_call), static_cast<double>(k_most_in_a_call)));
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         if (!how.progress.is_none()) how.progress(done, count);
     }

@@ -160,7 +160,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n' >open.o
 refused "the mesh is not closed" open.obj 2 open.obj
 refused "nowhere.obj" open.obj 2 nowhere.obj
 run 2 --colour
-[ "$status" -ne 0 ] && [ "$(grep -c "colour" err)" -eq 1 ] || fail "status $status" "$(cat err)"
+[ "$status" -eq 2 ] && [ "$(grep -c "colour" err)" -eq 1 ] || fail "status $status" "$(cat err)"
 
 [ "$failures" -eq 0 ] || { echo "$failures checks failed"; exit 1; }
 echo "all as expected"

@@ -108,6 +108,12 @@ def test_floats_go_up_and_never_down() -> None:
     with pytest.raises(TypeError, match="end: 0.1.* is no float32 number"):
         in_float.sweep(floats, floats, pierce.Translation([0, 0, 0], [0.1, 0, 0]))
     in_float.sweep(floats, floats, pierce.Translation([0, 0, 0], [np.float32(0.1), 0, 0]))
+    with pytest.raises(TypeError, match="end: 1e-10 is no float32 number"):
+        in_float.sweep(floats, floats, pierce.Translation([0, 0, 0], [1e-10, 0, 0]))
+    with pytest.raises(ValueError, match=r"start: shape \(2,\), where \(3,\) is needed"):
+        in_float.sweep(floats, floats, pierce.Translation([0, 0], [0, 0, 0]))
+    with pytest.raises(OverflowError):
+        in_float.first_hits_of_rays(floats, floats, 10**400)
 
 
 def test_integers_that_are_not_exact() -> None:

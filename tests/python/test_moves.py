@@ -58,8 +58,11 @@ def test_response_by_face(scalar: Any) -> None:
     assert moves.velocity.tolist() == [[0.5, 0, 0.5], [0.5, 0, 0]]
     moves = floor.move_and_bounce(points, down, 1.0, friction=np.array([0.25, 0], scalar))
     assert moves.velocity.tolist() == [[0.25, 0, 0], [0.5, 0, 0]]
-    moves = floor.move_and_bounce(points, down, 1.0, restitution=np.array([0.5], scalar))  # of other faces it is 0
-    assert moves.velocity[:, 2].tolist() == [0.5, 0]
+    for wrong in ([0.5], [0.5] * 3, []):
+        with pytest.raises(ValueError, match=f"restitution: {len(wrong)} entries, where 2 are needed"):
+            floor.move_and_bounce(points, down, 1.0, restitution=np.array(wrong, scalar))
+    moves = floor.move_and_bounce(points, down, 1.0, restitution=np.array(0.5, scalar))  # one number
+    assert moves.velocity[:, 2].tolist() == [0.5, 0.5]
     assert floor.move_and_slide(points, down, 1.0, mask=[True, False]).contacts.tolist() == [1, 0]
 
 

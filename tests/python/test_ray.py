@@ -118,6 +118,13 @@ def test_single_precision_in_and_a_mesh_that_is_ready():
             ORIGINS, DOWN)).all()
 
 
+def test_more_digits_than_double_are_refused():
+    vertices, faces = nested()
+    assert rays_of((vertices.astype(int), faces)).mesh.dtype == np.float64
+    with pytest.raises(TypeError, match="vertices: dtype float128 has more digits"):
+        rays_of((vertices.astype(np.longdouble), faces))
+
+
 @pytest.mark.parametrize("name, parameters", [
     ("intersects_id", ["ray_origins", "ray_directions", "return_locations", "multiple_hits", "max_hits"]),
     ("intersects_location", ["ray_origins", "ray_directions", "multiple_hits", "max_hits"]),

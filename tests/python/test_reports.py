@@ -111,13 +111,39 @@ def test_answers_are_indexed_and_say_what_they_lack() -> None:
         mesh.first_hits(vertices, vertices, wanted=("face", "colour"))
     offsets, all_hits = mesh.all_hits(2 * vertices, -2 * vertices, wanted=())
     assert set(all_hits.columns()) == {"hit"} and offsets[-1] == len(all_hits)
-    for sides in ("left", 3, -1, None):
+    for sides in ("left", 3, -1, 2**70, np.int64(-1), 1.0, None):
         with pytest.raises(ValueError, match="sides"):
             mesh.first_hits(vertices, vertices, sides=sides)  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="mask"):
-        mesh.first_hits(vertices, vertices, mask=np.array([], bool))
+    back = mesh.first_hits(vertices / 2, 2 * vertices, sides="back").face
+    assert (back != pierce.NO_FACE).all()
+    assert (mesh.first_hits(vertices / 2, 2 * vertices, sides=np.uint8(1)).face == back).all()
+    assert len(hits[-1]) == len(hits[np.int64(0)]) == 1
+    for index in (len(hits), -len(hits) - 1):
+        with pytest.raises(IndexError, match=f"Hits\\[{index}\\], of {len(hits)}"):
+            hits[index]
     located = mesh.locate(vertices)
     assert len(located[2:5].touches) == len(located.touches) and len(located[2:5]) == 3
+
+
+def test_masks_of_other_faces() -> None:
+    """A flag for each face, on a mesh, one with numbers of faces, a step and its ends."""
+    vertices, faces = sphere(10)
+    numbers = np.arange(len(faces)) // 2
+    deforming = pierce.DeformingMesh(vertices, faces)
+    for some, count, longer in [(pierce.CollisionMesh(vertices, faces), len(faces), False),
+                                (pierce.CollisionMesh(vertices, faces, face_numbers=numbers), numbers[-1] + 1, True),
+                                (deforming.step().after, len(faces), False)]:
+        for size in {0, 1, count - 1, count, count + 1}:
+            for ask in (some.first_hits, some.any_hits, some.all_hits):
+                if size == count or (longer and size > count):
+                    ask(-2 * vertices, 2 * vertices, mask=np.ones(size, bool))
+                    continue
+                with pytest.raises(ValueError, match=f"mask: {size} entries, where .*{count} are needed"):
+                    ask(vertices, vertices, mask=np.ones(size, bool))
+    with pytest.raises(ValueError, match="mask: 1 entries"):
+        deforming.step().sweep(vertices, vertices, mask=[True])
+    nothing = pierce.CollisionMesh([], [])
+    assert not nothing.any_hits(vertices, -vertices, mask=np.ones(len(nothing), bool)).any()
 
 
 def test_numbers_of_enumerators() -> None:

@@ -98,6 +98,26 @@ def test_ctrl_c_ends_a_call(mesh: pierce.CollisionMesh, threads: int) -> None:
     assert seen[-1] < MANY
 
 
+def test_slow_queries_are_cut_into_short_calls() -> None:
+    """Of a mesh in which each query looks at some thousand triangles; the first call is no longer than the others."""
+    rng = np.random.default_rng(3)
+    mesh = pierce.CollisionMesh(rng.normal(size=(3000, 3)), rng.integers(0, 3000, (4000, 3)))
+    points = rng.normal(size=(20_000, 3))
+    done: list[int] = []
+
+    class Enough(Exception):
+        pass
+
+    def progress(number: int, total: int) -> None:
+        done.append(number)
+        raise Enough
+
+    for ask in (mesh.contains, mesh.locate):
+        with pytest.raises(Enough):
+            ask(points, progress=progress)
+    assert max(done) < 10_000
+
+
 def test_other_threads_run_meanwhile(mesh: pierce.CollisionMesh) -> None:
     counted, done = [0], threading.Event()
 

@@ -25,7 +25,8 @@ class HitQueries:
 
     - `sides`: "front" (the default), "back" or "both": where a segment must come from;
     - `max_fraction`: only hits at this fraction of the segment (t of the ray) or before count;
-    - `mask`: flags by face number, shape (number of faces,): only faces whose flag is set count;
+    - `mask`: flags by face number, shape (number of faces,): only faces whose flag is set count. ValueError for another
+      length; with `face_numbers` it may be longer than the largest of these asks for;
     - `wanted`: names of the arrays that are made, all by default; `hit` always is;
     - `threads`, `progress`: as said in `CollisionMesh`.
 

@@ -23,7 +23,8 @@ class Moving:
     - `contacts`: room for so many contacts a particle, which are then in `met`;
     - `threads`, `progress`: as in `CollisionMesh`.
 
-    Numbers (`seconds`, `radius` and the like) are rounded to the mesh's dtype.
+    Numbers (`seconds`, `radius` and the like) are rounded to the mesh's dtype; a `surface_velocity` that is none of its
+    numbers is a TypeError.
     """
 
     _core: Union[_pierce.Mesh, _pierce.Step]
@@ -58,7 +59,8 @@ class Moving:
         """The same with impacts and friction: impacts above `rest_speed` bounce, others slide.
 
         `restitution` (the part of the approach that comes back, 0 to 1) and `friction` (Coulomb's, 0 and up): one
-        number for all faces, or shape (number of faces,) by the face's number.
+        number for all faces, or shape (number of faces,) by the face's number (ValueError for another length, as of
+        `mask`).
 
         >>> import pierce
         >>> floor = pierce.CollisionMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])

@@ -21,7 +21,8 @@ NO_FACE = 0xFFFFFFFF
 
 
 class Answers:
-    """Arrays of one length. `answers[index]` has the entries that a NumPy index, a mask or a slice names."""
+    """Arrays of one length. `answers[index]` has the entries that a NumPy index, a mask or a slice names; of one number
+    arrays of length 1, IndexError where there is no such entry."""
 
     _columns: dict[str, NDArray[Any]]
 
@@ -46,6 +47,8 @@ class Answers:
 
     def __getitem__(self: Self, index: Any) -> Self:
         if isinstance(index, (int, np.integer)):
+            if not -len(self) <= index < len(self):
+                raise IndexError(f"{type(self).__name__}[{index}], of {len(self)}")
             index = slice(index, index + 1 or None)
         some = copy.copy(self)
         some._columns = {name: column[index] for name, column in self._columns.items()}

@@ -19,8 +19,8 @@ class RayMeshIntersector:
     """Where rays hit a mesh, from both sides, decided exactly.
 
     `mesh`: a `CollisionMesh`, or what `CollisionMesh.of` takes, such as a mesh of trimesh: of that a mesh in double
-    precision is built, so that rays may have either. `threads`: for all calls, 0 for one on each core. The mesh is
-    copied: make a new intersector when it has changed.
+    precision is built, so that rays may have either; TypeError for vertices of more digits. `threads`: for all calls, 0
+    for one on each core. The mesh is copied: make a new intersector when it has changed.
 
     What differs from trimesh: no hit is lost or found twice to rounding, triangles without area and triangles in whose
     plane a ray lies are not hit, and a ray that starts on a face hits it only if it leaves it to the back. Answers come
@@ -42,7 +42,10 @@ class RayMeshIntersector:
     def __init__(self, mesh: Any, *, threads: int = 1) -> None:
         if not isinstance(mesh, CollisionMesh):
             arrays = arrays_of(mesh)
-            mesh = CollisionMesh(np.asarray(arrays["vertices"], dtype=np.float64), arrays["faces"], threads=threads)
+            vertices = arrays["vertices"]
+            if vertices.dtype.kind == "f" and vertices.dtype.itemsize < 8:  # exact
+                vertices = vertices.astype(np.float64)
+            mesh = CollisionMesh(vertices, arrays["faces"], threads=threads)
         self.mesh: CollisionMesh = mesh
         self.threads = threads
 
@@ -54,7 +57,8 @@ class RayMeshIntersector:
 
         `ray_origins`, `ray_directions`: shape (m, 3); directions of any length. `multiple_hits`: all hits of a ray, or
         the first alone. `max_hits`: the first so many of each ray. With locations each place on a ray comes once, with
-        the first of its triangles; without them each triangle that is hit does.
+        the first of its triangles, and so do places so near to each other that both t and location round to the same
+        numbers; without them each triangle that is hit does.
         """
         hits, index_ray = self._hits(ray_origins, ray_directions, multiple_hits, return_locations)
         if max_hits is not None:
