@@ -26,14 +26,7 @@ template <class Scalar>
 Gathered<std::optional<RigidHit<Scalar>>> columns_of_turns(std::size_t size) {
     using H = RigidHit<Scalar>;
     Gathered<std::optional<H>> out(size);
-    out.hit();
-    out.template column<Scalar>("time", [](const H& hit) { return hit.time; });
-    out.template vectors<Scalar>("place", [](const H& hit) { return hit.place; });
-    out.template column<bool>("place_verified", [](const H& hit) { return hit.place_verified; });
-    out.template vectors<Scalar>("position", [](const H& hit) { return hit.position; });
-    out.template vectors<Scalar>("normal", [](const H& hit) { return hit.normal; });
-    out.template vectors<Scalar>("barycentric", [](const H& hit) { return hit.barycentric; });
-    out.template vectors<Scalar>("surface_motion", [](const H& hit) { return hit.surface_motion; });
+    add_sweep_columns<Scalar>(out);
     out.template vectors<Scalar>("local", [](const H& hit) { return hit.local; });
     out.template vectors<Scalar>("local_position", [](const H& hit) { return hit.local_position; });
     out.template vectors<Scalar>("local_normal", [](const H& hit) { return hit.local_normal; });

@@ -57,19 +57,24 @@ inline Pose<double> pose_of(const py::object& rotation, const py::object& transl
 }
 py::tuple given_back(const Pose<double>& pose);
 
+/// What all hits of a mesh that moves have in common. `Hit`: SweepHit or RigidHit.
+template <class Scalar, class Hit>
+void add_sweep_columns(Gathered<std::optional<Hit>>& out) {
+    out.hit();
+    out.template column<Scalar>("time", [](const Hit& hit) { return hit.time; });
+    out.template vectors<Scalar>("place", [](const Hit& hit) { return hit.place; });
+    out.template column<bool>("place_verified", [](const Hit& hit) { return hit.place_verified; });
+    out.template vectors<Scalar>("position", [](const Hit& hit) { return hit.position; });
+    out.template vectors<Scalar>("normal", [](const Hit& hit) { return hit.normal; });
+    out.template vectors<Scalar>("barycentric", [](const Hit& hit) { return hit.barycentric; });
+    out.template vectors<Scalar>("surface_motion", [](const Hit& hit) { return hit.surface_motion; });
+}
+
 /// Columns of the hits of a mesh that moves without a turn, or deforms.
 template <class Scalar>
 Gathered<std::optional<SweepHit<Scalar>>> columns_of_sweeps(std::size_t size) {
-    using H = SweepHit<Scalar>;
-    Gathered<std::optional<H>> out(size);
-    out.hit();
-    out.template column<Scalar>("time", [](const H& hit) { return hit.time; });
-    out.template vectors<Scalar>("place", [](const H& hit) { return hit.place; });
-    out.template column<bool>("place_verified", [](const H& hit) { return hit.place_verified; });
-    out.template vectors<Scalar>("position", [](const H& hit) { return hit.position; });
-    out.template vectors<Scalar>("normal", [](const H& hit) { return hit.normal; });
-    out.template vectors<Scalar>("barycentric", [](const H& hit) { return hit.barycentric; });
-    out.template vectors<Scalar>("surface_motion", [](const H& hit) { return hit.surface_motion; });
+    Gathered<std::optional<SweepHit<Scalar>>> out(size);
+    add_sweep_columns<Scalar>(out);
     out.face();
     out.feature();
     return out;

@@ -109,7 +109,18 @@ class FaceTouches(Answers):
     """In `passages` what the triangle adds to `crossings`: 1, 0 or -1. In `locate` 0."""
 
 
-class Locations(Answers):
+class WithTouches(Answers):
+    """Answers whose faces stand in an array of their own; a part of the answers has all of them."""
+
+    touches: FaceTouches
+    """The triangles of all entries: those of one are the `face_count` from `first_face` on."""
+
+    def __init__(self, columns: dict[str, Any], touches: FaceTouches) -> None:
+        super().__init__(columns)
+        self.touches = touches
+
+
+class Locations(WithTouches):
     """Where points are, decided exactly."""
 
     place: Bytes
@@ -120,15 +131,9 @@ class Locations(Answers):
     """Where the faces of the point begin in `touches`."""
     face_count: Counts
     """How many triangles the point lies on."""
-    touches: FaceTouches
-    """The triangles that points lie on; a part of the locations has all of them."""
-
-    def __init__(self, columns: dict[str, Any], touches: FaceTouches) -> None:
-        super().__init__(columns)
-        self.touches = touches
 
 
-class Passages(Answers):
+class Passages(WithTouches):
     """Where a segment passes through the surface or touches it, in exact order: one entry for each place."""
 
     fraction: Floats
@@ -153,12 +158,6 @@ class Passages(Answers):
     """Where the faces of the passage begin in `touches`."""
     face_count: Counts
     """How many triangles meet there."""
-    touches: FaceTouches
-    """The triangles of all passages."""
-
-    def __init__(self, columns: dict[str, Any], touches: FaceTouches) -> None:
-        super().__init__(columns)
-        self.touches = touches
 
 
 class SphereHits(Answers):
