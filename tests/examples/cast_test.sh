@@ -4,20 +4,11 @@
 set -uo pipefail
 
 cast=$(realpath "$1")
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
-
-fail() {
-    failures=$((failures + 1))
-    echo "FAILED: $name"
-    printf '    %s\n' "$@"
-}
+. "$(dirname "$0")/checks.sh"
 
 # run ARG...: leaves the exit status in $status and the output in the files out and err.
 run() {
-    name="cast $*"
+    what="cast $*"
     "$cast" "$@" >out 2>err </dev/null
     status=$?
 }
@@ -143,7 +134,7 @@ run_ok triangle.obj --csv --sides both --segments segments.txt --segment "9 9 1 
 rows "0,0,front,face,0.75,0.75,1,1,0
 1,0,back,face,0.25,0.25,1,1,0
 2,,,,,,,,"
-name="cast --segments -"
+what="cast --segments -"
 "$cast" triangle.obj --csv --segments - <segments.txt >out 2>err || fail "$(cat err)"
 rows "0,0,front,face,0.75,0.75,1,1,0
 1,,,,,,,,"
@@ -292,10 +283,10 @@ if [ -c /dev/full ]; then
     run cube.obj --picture /dev/full
     [ "$status" -eq 2 ] && [ "$(cat err)" = "/dev/full: could not be written in full" ] || fail "$status" "$(cat err)"
     [ -c /dev/full ] || fail "removed /dev/full"
-    name="cast >/dev/full"
+    what="cast >/dev/full"
     "$cast" cube.obj >/dev/full 2>err
     [ $? -eq 2 ] && [ "$(cat err)" = "cast: can't write to standard output" ] || fail "$(cat err)"
-    name="cast --help >/dev/full"
+    what="cast --help >/dev/full"
     "$cast" --help >/dev/full 2>err
     [ $? -eq 2 ] && [ "$(cat err)" = "cast: can't write to standard output" ] || fail "$(cat err)"
 fi
@@ -315,5 +306,4 @@ run_ok flat.obj --random 1
 contains out '3 vertices; empty'
 lacks out 'closed'
 
-[ "$failures" -eq 0 ] || { echo "$failures checks failed"; exit 1; }
-echo "all as expected"
+end_checks

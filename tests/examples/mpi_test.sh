@@ -7,22 +7,13 @@ mpiexec=$1
 program=$(realpath "$2")
 mesh=$(realpath "$3")
 other_mesh=$(realpath "$4")
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
+. "$(dirname "$0")/checks.sh"
 
 # Open MPI: more ranks than processors, as root too, each on any processor (several tests run at a time), and without
 # a system call that containers forbid. It keeps memory until the end, which the address sanitizer would call lost.
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
     OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_btl_vader_single_copy_mechanism=none \
     ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0
-
-fail() {
-    failures=$((failures + 1))
-    echo "FAILED: $what"
-    printf '    %s\n' "$@"
-}
 
 # run RANKS ARG...: leaves the exit status in $status and the output in the files out and err.
 run() {
@@ -162,5 +153,4 @@ refused "nowhere.obj" open.obj 2 nowhere.obj
 run 2 --colour
 [ "$status" -eq 2 ] && [ "$(grep -c "colour" err)" -eq 1 ] || fail "status $status" "$(cat err)"
 
-[ "$failures" -eq 0 ] || { echo "$failures checks failed"; exit 1; }
-echo "all as expected"
+end_checks
